@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+//
+// Any ENV of the command line as a cube map.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/result.h"
+#include "core/tally.h"
+#include "lighting/cubemap.h"
+
+namespace lodestar::io {
+
+/// How an environment file was understood.
+enum class EnvironmentLayout { Analytic, LatLong, Cross, Strip, SixFiles };
+
+struct LoadedEnvironment {
+    lighting::Cubemap base; ///< level 0, repaired radiance
+    EnvironmentLayout layout = EnvironmentLayout::Analytic;
+    core::Tally warnings;
+};
+
+/// The face width an environment is resampled to unless one is asked for.
+inline constexpr int kDefaultCubeWidth = 256;
+
+/// Loads ENV: an analytic map, a lat-long panorama (width = 2 height), a vertical or horizontal
+/// cross (3:4, 4:3), a strip (6:1 or 1:6, GL order; an EXR that declares OpenEXR's cube layout is
+/// read by that convention and turned half about +Y, so that it agrees with OpenEXR's lat-long), or
+/// six files STEM_{px,nx,py,ny,pz,nz}.EXT, named as STEM_px.EXT or as STEM_.EXT with the `_` left.
+/// @errors Usage for a bad analytic text, InputRefused for a bad file
+[[nodiscard]] core::Result<LoadedEnvironment> loadEnvironment(const std::string& environment,
+                                                              int width = kDefaultCubeWidth);
+
+} // namespace lodestar::io

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+//
+// glTF 2.0 files as validated plain data: every reference checked, every accessor decoded, every
+// number finite. tinygltf is seen by gltf*.cpp only.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "core/image.h"
+#include "core/result.h"
+#include "core/tally.h"
+
+namespace lodestar::io {
+
+inline constexpr int kNone = -1; ///< an index that is absent
+
+enum class Wrap { Repeat, MirroredRepeat, ClampToEdge };
+enum class Filter { Nearest, Linear };
+enum class MipFilter { None, Nearest, Linear };
+
+/// A texture: an image and how to sample it. The image is decoded as stored (sRGB stays encoded).
+struct GltfTexture {
+    int image = kNone;
+    Wrap wrapS = Wrap::Repeat;
+    Wrap wrapT = Wrap::Repeat;
+    Filter magnification = Filter::Linear;
+    Filter minification = Filter::Linear;
+    MipFilter mip = MipFilter::Linear;
+};
+
+struct GltfTextureRef {
+    int texture = kNone;
+    int uvSet = 0;
+};
+
+enum class AlphaMode { Opaque, Mask, Blend };
+
+/// How a texel of the exponent texture says the exponent.
+enum class ExponentEncoding {
+    Exponent, ///< texel x scale
+    Log2,     ///< 2^(texel x scale) - 1
+};
+
+/// Blinn-Phong quantities given directly, in a material's `extras.lodestar`. They win over
+/// metallic-roughness where present.
+struct GltfBlinnPhong {
+    std::optional<glm::vec3> diffuse; ///< k_L, linear [0, 1]
+    std::optional<glm::vec3> f0;      ///< [0, 1]
+    std::optional<float> exponent;    ///< [0, 1e7]; "mirror" in JSON is 1e7
+    GltfTextureRef exponentTexture;   ///< red channel, linear
+    ExponentEncoding exponentEncoding = ExponentEncoding::Log2;
+    float exponentScale = 1.0f;
+};
+
+struct GltfMaterial {
+    std::string name;
+    glm::vec4 baseColor{1.0f}; ///< linear
+    float metallic = 1.0f;
+    float roughness = 1.0f;
+    glm::vec3 emissive{0.0f};
+    float normalScale = 1.0f;
+    float occlusionStrength = 1.0f;
+    GltfTextureRef baseColorTexture;         ///< sRGB
+    GltfTextureRef metallicRoughnessTexture; ///< linear: g roughness, b metallic
+    GltfTextureRef normalTexture;            ///< linear
+    GltfTextureRef occlusionTexture;         ///< linear, red
+    GltfTextureRef emissiveTexture;          ///< sRGB
+    AlphaMode alphaMode = AlphaMode::Opaque;
+    float alphaCutoff = 0.5f;
+    bool doubleSided = false;
+    std::optional<GltfBlinnPhong> blinnPhong;
+};
+
+enum class Topology { Points, Lines, Triangles };
+
+/// One drawable: decoded, indexed, strips and fans unrolled. normals are generated flat where a
+/// triangle mesh has none (with vertices split as glTF asks); empty for points and lines without.
+struct GltfPrimitive {
+    Topology topology = Topology::Triangles;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;          ///< unit, or empty
+    std::vector<glm::vec4> tangents;         ///< w is the handedness; empty if the file has none
+    std::vector<glm::vec2> uvs[2];           ///< empty if absent
+    std::vector<glm::vec4> colors;           ///< linear; empty if absent
+    std::vector<std::uint32_t> indices;      ///< every one < positions.size()
+    int material = kNone;                    ///< kNone: glTF's default material
+};
+
+struct GltfMesh {
+    std::string name;
+    std::vector<GltfPrimitive> primitives;
+};
+
+/// Right-handed, looks along -Z, +Y up.
+struct GltfCamera {
+    std::string name;
+    bool perspective = true;
+    float verticalFov = 0.8f;  ///< radians, perspective
+    float aspect = 0.0f;       ///< 0: the viewport's
+    float xMagnification = 1.0f, yMagnification = 1.0f; ///< orthographic half extents
+    float nearPlane = 0.01f;
+    float farPlane = std::numeric_limits<float>::infinity();
+};
+
+enum class LightKind { Directional, Point, Spot };
+
+/// KHR_lights_punctual; shines along -Z of its node.
+struct GltfLight {
+    std::string name;
+    LightKind kind = LightKind::Point;
+    glm::vec3 color{1.0f};
+    float intensity = 1.0f; ///< lux for directional (= irradiance), candela else (= radiant intensity)
+    float range = std::numeric_limits<float>::infinity(); ///< metres
+    float innerConeAngle = 0.0f;                          ///< radians
+    float outerConeAngle = 0.785398163f;                  ///< radians, (inner, pi/2]
+};
+
+struct GltfNode {
+    std::string name;
+    int parent = kNone;
+    std::vector<int> children;
+    bool hasMatrix = false;
+    glm::mat4 matrix{1.0f}; ///< parentFromNode; composed from TRS unless hasMatrix
+    glm::vec3 translation{0.0f};
+    glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
+    glm::vec3 scale{1.0f};
+    int mesh = kNone;
+    int camera = kNone;
+    int light = kNone;
+    int skin = kNone; ///< recorded; joints are not applied yet
+};
+
+struct GltfScene {
+    std::string name;
+    std::vector<int> roots;
+};
+
+/// A whole file. All indices are valid or kNone; the nodes of a scene form a forest.
+struct GltfFile {
+    std::vector<GltfScene> scenes;
+    int defaultScene = kNone; ///< scene 0 if the file names none; kNone if it has none
+    std::vector<GltfNode> nodes;
+    std::vector<GltfMesh> meshes;
+    std::vector<GltfMaterial> materials;
+    std::vector<GltfTexture> textures;
+    std::vector<core::Image> images; ///< 4 channels, as stored; 1x1 white where decoding failed (counted)
+    std::vector<GltfCamera> cameras;
+    std::vector<GltfLight> lights;
+    std::vector<std::string> extensionsUsed;
+    std::vector<std::string> extensionsRequired;
+    int animationCount = 0;
+    int skinCount = 0;
+    core::Tally warnings; ///< what was repaired or ignored
+};
+
+/// Whether an extension's content is read.
+[[nodiscard]] bool isSupportedExtension(std::string_view name);
+
+struct GltfOptions {
+    std::filesystem::path assetRoot; ///< empty: the file's own folder
+    bool decodeImages = true;        ///< false leaves images empty (sizes only)
+};
+
+/// Loads .gltf or .glb. @errors InputRefused with the JSON pointer or byte of what is wrong
+[[nodiscard]] core::Result<GltfFile> loadGltf(const std::filesystem::path& path,
+                                              const GltfOptions& options = {});
+
+} // namespace lodestar::io

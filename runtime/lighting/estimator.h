@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+//
+// The estimators by name: how a lobe's mean radiance is got from an environment. The names are the
+// same in code, JSON, the editor and on the command line (docs/estimators.md).
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+
+namespace lodestar::lighting {
+
+enum class EstimatorKind {
+    Mip,        ///< `mip`: McGuire 2013 as published; plain mips, exponent as given
+    MipFloor,   ///< `mip-floor`: the same, level raised to the pixel's footprint
+    Bias,       ///< `bias:LAMBDA`: Ashikhmin and Ghosh 2002, a least level per object
+    BiasVertex, ///< `bias:LAMBDA:vertex`: the same, per vertex, sharper at grazing angles
+    Tent,       ///< `tent`: one fetch from tent mips
+    LowestMip,  ///< `lowest-mip`: Lambert from the coarsest plain mip, as published
+    Sh9,        ///< `sh9`: nine spherical-harmonic coefficients
+    Irradiance, ///< `irradiance`: a 16x16 irradiance cube
+    Reference,  ///< `reference`: double precision over all texels, CPU only
+};
+
+enum class Term { Glossy, Diffuse };
+
+/// An estimator and its parameter.
+struct Estimator {
+    EstimatorKind kind = EstimatorKind::Tent;
+    float leastLevel = 0.0f; ///< bias only, mip level >= 0
+
+    bool operator==(const Estimator&) const = default;
+};
+
+inline constexpr Estimator kDefaultSpecular{EstimatorKind::Tent, 0.0f};
+inline constexpr Estimator kDefaultDiffuse{EstimatorKind::Irradiance, 0.0f};
+
+/// The estimator a name says, for a term; the error lists the names that the term has.
+[[nodiscard]] core::Result<Estimator> parseEstimator(std::string_view name, Term term);
+
+/// Its name, as parseEstimator takes it.
+[[nodiscard]] std::string estimatorName(const Estimator& estimator);
+
+/// The names a term has, for help and messages; `bias:LAMBDA` stands as that.
+[[nodiscard]] std::vector<std::string> estimatorNames(Term term);
+
+/// Whether the term can be estimated so: `bias` and `reference` for both, the others for one.
+[[nodiscard]] bool serves(EstimatorKind kind, Term term);
+
+} // namespace lodestar::lighting

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+//
+// Cube maps: faces, levels, solid angles. Faces are in GL's order and orientation, drawn unfolded
+// from inside the cube, each with its row 0 at the top:
+//
+//                 +----+
+//                 | +Y |          face 0 +X   row 0 at +Y, columns run to -Z
+//            +----+----+----+----+     1 -X   row 0 at +Y, columns run to +Z
+//            | -X | +Z | +X | -Z |     2 +Y   row 0 at -Z, columns run to +X
+//            +----+----+----+----+     3 -Y   row 0 at +Z, columns run to +X
+//                 | -Y |               4 +Z   row 0 at +Y, columns run to +X
+//                 +----+               5 -Z   row 0 at +Y, columns run to -X
+//
+// Source of the levels: McGuire et al. 2013, eq. 12 (MIP-1); Ashikhmin and Ghosh 2002; the level by
+// texel size is our own (docs/derivations/mip.md).
+#ifndef LODESTAR_CUBE_GLSL
+#define LODESTAR_CUBE_GLSL
+#include "dual.glsl"
+#include "power.glsl"
+
+LODESTAR_BEGIN
+
+/// The direction (not unit) of face coordinates u (along columns) and v (down rows) in [-1, 1].
+LODESTAR_FN vec3 lodestar_cubeDirection(int face, Real u, Real v) {
+    if (face == 0) {
+        return vec3(1.0f, -v, -u);
+    }
+    if (face == 1) {
+        return vec3(-1.0f, -v, u);
+    }
+    if (face == 2) {
+        return vec3(u, 1.0f, v);
+    }
+    if (face == 3) {
+        return vec3(u, -1.0f, -v);
+    }
+    if (face == 4) {
+        return vec3(u, -v, 1.0f);
+    }
+    return vec3(-u, -v, -1.0f);
+}
+
+/// The face that a direction meets, 0 to 5; ties go to x, then y. Inverse of lodestar_cubeDirection.
+LODESTAR_FN int lodestar_cubeFace(vec3 d) {
+    vec3 a = abs(d);
+    if (a.x >= a.y && a.x >= a.z) {
+        return d.x >= 0.0f ? 0 : 1;
+    }
+    if (a.y >= a.z) {
+        return d.y >= 0.0f ? 2 : 3;
+    }
+    return d.z >= 0.0f ? 4 : 5;
+}
+
+/// The face coordinates (u, v) in [-1, 1] of a direction on its face; (0, 0) for the zero vector.
+LODESTAR_FN vec2 lodestar_cubeCoordinates(vec3 d) {
+    int face = lodestar_cubeFace(d);
+    vec3 a = abs(d);
+    Real m = max(max(a.x, a.y), a.z);
+    Real k = m > 0.0f ? 1.0f / m : Real(0.0f);
+    if (face == 0) {
+        return vec2(-d.z * k, -d.y * k);
+    }
+    if (face == 1) {
+        return vec2(d.z * k, -d.y * k);
+    }
+    if (face == 2) {
+        return vec2(d.x * k, d.z * k);
+    }
+    if (face == 3) {
+        return vec2(d.x * k, -d.z * k);
+    }
+    if (face == 4) {
+        return vec2(d.x * k, -d.y * k);
+    }
+    return vec2(-d.x * k, -d.y * k);
+}
+
+/// The level whose texels subtend the solid angle of a cosine-power lobe, not clamped.
+/// m = log2(w sqrt 3) - log2(s + 1) / 2  [McGuire13 eq. 12]
+/// @param exponent [0, 1e7]  @param width face width of level 0 in texels, >= 1
+LODESTAR_FN Real lodestar_mipLevelUnclamped(Real exponent, Real width) {
+    return log2(width * LODESTAR_LITERAL(1.73205080756887729)) - 0.5f * log2(exponent + 1.0f);
+}
+
+/// The same, exponent repaired and clamped to the chain [0, maxLevel].
+LODESTAR_FN Real lodestar_mipLevel(Real exponent, Real width, Real maxLevel) {
+    return clamp(lodestar_mipLevelUnclamped(lodestar_repairExponent(exponent), width), Real(0.0f),
+                 maxLevel);
+}
+
+/// The level at which one texel covers one pixel of a lookup along d, given d's derivatives over
+/// the screen. The exact chain rule of the face projection; the driver's own query is not used
+/// because some drivers answer it wrongly for cubes.
+/// @param d the lookup, any length  @param dx, dy its screen derivatives
+/// @return level, not clamped; -infinity where the direction does not change, NaN for NaN input
+LODESTAR_FN Real lodestar_footprintLevel(vec3 d, vec3 dx, vec3 dy, Real width) {
+    vec3 a = abs(d);
+    vec3 axis = vec3(0.0f, 0.0f, 1.0f);
+    if (a.x >= a.y && a.x >= a.z) {
+        axis = vec3(1.0f, 0.0f, 0.0f);
+    } else if (a.y >= a.z) {
+        axis = vec3(0.0f, 1.0f, 0.0f);
+    }
+    Real k = dot(d, axis);
+    vec3 px = (dx * k - d * dot(dx, axis)) * (1.0f / (k * k));
+    vec3 py = (dy * k - d * dot(dy, axis)) * (1.0f / (k * k));
+    return log2(0.5f * width) + 0.5f * log2(max(dot(px, px), dot(py, py)));
+}
+
+/// A level raised to a floor; a floor that is NaN or -infinity changes nothing.
+LODESTAR_FN Real lodestar_raiseLevel(Real level, Real floorLevel, Real maxLevel) {
+    return floorLevel > level ? min(floorLevel, maxLevel) : level;
+}
+
+/// Half of log2 of the mean texel's solid angle over that of the texels about d: texels at a face's
+/// centre are larger than the mean, at a corner smaller, by (max|d_i|)^3.
+/// q(d) = -1.5 log2(max |d_i|) - 0.467   (MIP-4; 0.467 makes its mean over the sphere 0)
+LODESTAR_FN Real lodestar_texelSizeLevel(vec3 d) {
+    vec3 a = abs(d);
+    Real m = max(max(a.x, a.y), a.z);
+    Real lengthSquared = dot(d, d);
+    return m > 0.0f ? LODESTAR_LITERAL(-0.75) * log2(m * m / lengthSquared) - LODESTAR_LITERAL(0.467)
+                    : Real(0.0f);
+}
+
+/// The level for one fetch from tent-filtered mips: eq. 12 with the bias that fits the tent, and
+/// with the level following the texel's size for lobes narrow enough to notice (MIP-5).
+/// @param d lookup direction, unit  @param exponent [0, 1e7]
+LODESTAR_FN Real lodestar_tentLevel(vec3 d, Real exponent, Real width, Real maxLevel) {
+    Real s = lodestar_repairExponent(exponent);
+    Real kappa = clamp((log2(s + 1.0f) - 1.0f) * LODESTAR_LITERAL(0.2), Real(0.0f), Real(1.0f));
+    Real level = lodestar_mipLevelUnclamped(s, width) - LODESTAR_LITERAL(0.65) +
+                 kappa * lodestar_texelSizeLevel(d);
+    return clamp(level, Real(0.0f), maxLevel);
+}
+
+/// The least level of `bias` for one vertex: the object's, sharpened towards grazing angles, where
+/// the Blinn-Phong lobe about the reflection covers n.v times the solid angle it covers at n = v
+/// (a lobe of the half vector is 4 h.v times smaller about the reflection). Ashikhmin and Ghosh 2002
+/// ask for a level a vertex for this purpose and leave the law open.
+/// @param leastLevel the object's level, >= 0  @param nDotV [0, 1]
+LODESTAR_FN Real lodestar_biasLevelAtVertex(Real leastLevel, Real nDotV) {
+    return max(leastLevel + 0.5f * log2(clamp(nDotV, LODESTAR_LITERAL(1e-6), Real(1.0f))), Real(0.0f));
+}
+
+/// The share of a face's solid angle integral up to (x, y): F(x, y) = atan(xy / sqrt(1 + x^2 + y^2)).
+/// Differences of F lose digits for small texels in float; use lodestar_texelSolidAngle there.
+/// @param width face width >= 1  @param i, j texel column and row
+/// @return solid angle in steradians by the midpoint rule, exact as width grows: 4 % at 2 texels,
+/// 3e-6 at 256. The CPU's tables use the exact difference in double.
+LODESTAR_FN Real lodestar_texelSolidAngle(Real width, Real i, Real j) {
+    Real u = (2.0f * i + 1.0f) / width - 1.0f;
+    Real v = (2.0f * j + 1.0f) / width - 1.0f;
+    Real r = inversesqrt(1.0f + u * u + v * v);
+    return 4.0f / (width * width) * r * r * r;
+}
+
+LODESTAR_END
+
+#endif

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+//
+// The one entry point: light of an environment reflected towards the viewer. The text fetches
+// nothing itself; it calls hooks that a host defines over its own bindings:
+//   lodestar_host_cube        radiance of slot's cube map along a direction at a level
+//   lodestar_host_irradiance  irradiance over pi of slot's environment about a normal
+// Both answer radiance: 1 everywhere under a constant environment of radiance 1.
+//
+// Feature macros (defaults in shaders/README.md):
+//   LODESTAR_SPECULAR  which estimator the glossy term uses, one of LODESTAR_SPECULAR_*
+//
+// A C++ host includes this file inside its class, after defining LODESTAR_HOST_CLASS, and its
+// member functions are the hooks: no global state, and the whole evaluation runs on the CPU.
+#ifndef LODESTAR_HOST_CLASS
+#ifndef LODESTAR_ENVIRONMENT_GLSL
+#define LODESTAR_ENVIRONMENT_GLSL
+#define LODESTAR_ENVIRONMENT_WANTED
+#include "cube.glsl"
+#include "dual.glsl"
+#include "lobes.glsl"
+#define LODESTAR_HOST_BEGIN LODESTAR_BEGIN
+#define LODESTAR_HOST_END LODESTAR_END
+#endif
+#else
+#define LODESTAR_ENVIRONMENT_WANTED
+#define LODESTAR_HOST_BEGIN
+#define LODESTAR_HOST_END
+#endif
+
+#ifndef LODESTAR_SPECULAR_MIP
+#define LODESTAR_SPECULAR_MIP 0
+#define LODESTAR_SPECULAR_MIP_FLOOR 1
+#define LODESTAR_SPECULAR_BIAS 2
+#define LODESTAR_SPECULAR_TENT 3
+#endif
+#ifndef LODESTAR_SPECULAR
+#define LODESTAR_SPECULAR LODESTAR_SPECULAR_TENT
+#endif
+
+#ifdef LODESTAR_ENVIRONMENT_WANTED
+#undef LODESTAR_ENVIRONMENT_WANTED
+LODESTAR_HOST_BEGIN
+
+#ifndef LODESTAR_HOST_CLASS
+vec4 lodestar_host_cube(int slot, vec3 direction, Real level);
+vec3 lodestar_host_irradiance(int slot, vec3 normal);
+#endif
+
+/// What an environment lookup needs to know of a cube map.
+struct LodestarCube {
+    int slot;       ///< which cube the hooks fetch
+    Real width;     ///< face width of level 0, texels
+    Real maxLevel;  ///< last level of the chain
+    Real leastLevel; ///< `bias` only: the object's or the vertex's least level, >= 0
+};
+
+/// A point being shaded. Vectors are unit, in the environment's frame.
+struct LodestarSurface {
+    vec3 normal;
+    vec3 view;       ///< towards the viewer
+    vec3 diffuse;    ///< k_L, reflectance [0, 1]
+    vec3 f0;         ///< reflectance at normal incidence [0, 1]
+    Real exponent;   ///< Blinn-Phong, [0, 1e7]
+    Real occlusion;  ///< ambient occlusion, 1 open
+};
+
+/// The lookup that a Blinn-Phong lobe asks of an environment: a direction between the normal (at
+/// exponent 0 the lobe is Lambert's) and the reflection, and a Phong exponent about it.
+struct LodestarLookup {
+    vec3 direction;
+    Real exponent;
+};
+
+LODESTAR_FN LodestarLookup lodestar_lookup(vec3 n, vec3 v, Real exponent) {
+    LodestarLookup lookup;
+    Real nDotV = clamp(dot(n, v), Real(0.0f), Real(1.0f));
+    vec3 r = 2.0f * dot(n, v) * n - v;
+    lookup.direction = lodestar_safeNormalize(mix(n, r, lodestar_lookupBlend(exponent, nDotV)), n);
+    lookup.exponent = lodestar_phongFromBlinnPhong(exponent);
+    return lookup;
+}
+
+/// Glossy radiance as the estimators publish it: about the reflection, the exponent as given.
+LODESTAR_FN vec3 lodestar_specularMip(LodestarCube cube, vec3 r, Real exponent) {
+    return vec3(lodestar_host_cube(cube.slot, r, lodestar_mipLevel(exponent, cube.width, cube.maxLevel)));
+}
+
+/// `mip` with the level raised to the pixel's footprint.
+LODESTAR_FN vec3 lodestar_specularMipFloor(LodestarCube cube, vec3 r, Real exponent, Real footprint) {
+    Real level = lodestar_mipLevel(exponent, cube.width, cube.maxLevel);
+    return vec3(lodestar_host_cube(cube.slot, r, lodestar_raiseLevel(level, footprint, cube.maxLevel)));
+}
+
+/// Ashikhmin and Ghosh: the pixel's own level, raised to the object's (or vertex's) least level.
+LODESTAR_FN vec3 lodestar_specularBias(LodestarCube cube, vec3 r, Real footprint) {
+    Real level = lodestar_raiseLevel(min(cube.leastLevel, cube.maxLevel), footprint, cube.maxLevel);
+    return vec3(lodestar_host_cube(cube.slot, r, level));
+}
+
+/// One fetch from tent mips for a Phong lobe about a direction, level by lodestar_tentLevel.
+LODESTAR_FN vec3 lodestar_specularTent(LodestarCube cube, vec3 direction, Real exponent) {
+    Real level = lodestar_tentLevel(direction, exponent, cube.width, cube.maxLevel);
+    return vec3(lodestar_host_cube(cube.slot, direction, level));
+}
+
+/// The glossy term's radiance by the estimator LODESTAR_SPECULAR, before Fresnel.
+/// @param reflectionDx, reflectionDy screen derivatives of the reflection vector (0 on the CPU)
+LODESTAR_FN vec3 lodestar_specular(LodestarCube cube, LodestarSurface surface, vec3 reflectionDx,
+                                   vec3 reflectionDy) {
+#if LODESTAR_SPECULAR == LODESTAR_SPECULAR_TENT
+    LodestarLookup lookup = lodestar_lookup(surface.normal, surface.view, surface.exponent);
+    return lodestar_specularTent(cube, lookup.direction, lookup.exponent);
+#else
+    vec3 r = 2.0f * dot(surface.normal, surface.view) * surface.normal - surface.view;
+#if LODESTAR_SPECULAR == LODESTAR_SPECULAR_MIP
+    return lodestar_specularMip(cube, r, surface.exponent);
+#else
+    Real footprint = lodestar_footprintLevel(r, reflectionDx, reflectionDy, cube.width);
+#if LODESTAR_SPECULAR == LODESTAR_SPECULAR_MIP_FLOOR
+    return lodestar_specularMipFloor(cube, r, surface.exponent, footprint);
+#else
+    return lodestar_specularBias(cube, r, footprint);
+#endif
+#endif
+#endif
+}
+
+/// Radiance towards the viewer of an environment: k_L (1 - F) E/pi ao + F L_glossy ao_s.
+/// A constant environment of radiance 1 gives 1 for (k_L = 1, F0 = 0) and for F0 = 1, unoccluded.
+LODESTAR_FN vec3 lodestar_environment(LodestarCube cube, LodestarSurface surface, vec3 reflectionDx,
+                                      vec3 reflectionDy) {
+    Real nDotV = clamp(dot(surface.normal, surface.view), Real(0.0f), Real(1.0f));
+    vec3 fresnel = lodestar_fresnelEnvironment(surface.f0, nDotV, surface.exponent);
+    vec3 glossy = lodestar_specular(cube, surface, reflectionDx, reflectionDy);
+    vec3 lambert = lodestar_host_irradiance(cube.slot, surface.normal);
+    return surface.diffuse * (vec3(1.0f) - fresnel) * lambert * surface.occlusion +
+           fresnel * glossy * lodestar_specularOcclusion(surface.occlusion, surface.exponent);
+}
+
+LODESTAR_HOST_END
+#endif
+#undef LODESTAR_HOST_BEGIN
+#undef LODESTAR_HOST_END
