@@ -80,10 +80,10 @@ struct PreparedParts {
 };
 
 /// Nine coefficients of irradiance over pi, as shaders/lodestar/sh9.glsl reads them.
-using Sh9 = std::array<glm::vec3, 9>;
+using Sh9Coefficients = std::array<glm::vec3, 9>;
 
 /// Irradiance over pi by order-2 spherical harmonics, from texel values and exact solid angles.
-[[nodiscard]] Sh9 sh9FromCube(const Cubemap& base);
+[[nodiscard]] Sh9Coefficients sh9FromCube(const Cubemap& base);
 
 /// The 16x16 irradiance cube (over pi: a constant map of 1 gives 1), every texel the cosine lobe's
 /// exact quadrature over the map. level 0 only.
@@ -96,7 +96,7 @@ struct PreparedEnvironment {
     Cubemap boxMips;    ///< full chain
     Cubemap tentMips;   ///< full chain
     Cubemap irradiance; ///< over pi
-    Sh9 sh9{};
+    Sh9Coefficients sh9{};
 };
 
 [[nodiscard]] PreparedEnvironment prepare(Cubemap base, const PreparedParts& parts);

@@ -57,23 +57,23 @@ LODESTAR_FN vec2 lodestar_cubeCoordinates(vec3 d) {
     int face = lodestar_cubeFace(d);
     vec3 a = abs(d);
     Real m = max(max(a.x, a.y), a.z);
-    Real k = m > 0.0f ? 1.0f / m : Real(0.0f);
+    vec3 p = m > 0.0f ? d / m : vec3(0.0f); // 1 / m would overflow for tiny m
     if (face == 0) {
-        return vec2(-d.z * k, -d.y * k);
+        return vec2(-p.z, -p.y);
     }
     if (face == 1) {
-        return vec2(d.z * k, -d.y * k);
+        return vec2(p.z, -p.y);
     }
     if (face == 2) {
-        return vec2(d.x * k, d.z * k);
+        return vec2(p.x, p.z);
     }
     if (face == 3) {
-        return vec2(d.x * k, -d.z * k);
+        return vec2(p.x, -p.z);
     }
     if (face == 4) {
-        return vec2(d.x * k, -d.y * k);
+        return vec2(p.x, -p.y);
     }
-    return vec2(-d.x * k, -d.y * k);
+    return vec2(-p.x, -p.y);
 }
 
 /// The level whose texels subtend the solid angle of a cosine-power lobe, not clamped.
@@ -93,7 +93,8 @@ LODESTAR_FN Real lodestar_mipLevel(Real exponent, Real width, Real maxLevel) {
 /// the screen. The exact chain rule of the face projection; the driver's own query is not used
 /// because some drivers answer it wrongly for cubes.
 /// @param d the lookup, any length  @param dx, dy its screen derivatives
-/// @return level, not clamped; -infinity where the direction does not change, NaN for NaN input
+/// @return level, not clamped; below -40 where the direction does not change; NaN for NaN input and
+/// for the zero vector, which lodestar_raiseLevel drops
 LODESTAR_FN Real lodestar_footprintLevel(vec3 d, vec3 dx, vec3 dy, Real width) {
     vec3 a = abs(d);
     vec3 axis = vec3(0.0f, 0.0f, 1.0f);
@@ -105,7 +106,9 @@ LODESTAR_FN Real lodestar_footprintLevel(vec3 d, vec3 dx, vec3 dy, Real width) {
     Real k = dot(d, axis);
     vec3 px = (dx * k - d * dot(dx, axis)) * (1.0f / (k * k));
     vec3 py = (dy * k - d * dot(dy, axis)) * (1.0f / (k * k));
-    return log2(0.5f * width) + 0.5f * log2(max(dot(px, px), dot(py, py)));
+    Real span = max(dot(px, px), dot(py, py));
+    // log2(0) is undefined in GLSL; a comparison keeps NaN where max() might not.
+    return log2(0.5f * width) + 0.5f * log2(span < LODESTAR_LITERAL(1e-30) ? LODESTAR_LITERAL(1e-30) : span);
 }
 
 /// A level raised to a floor; a floor that is NaN or -infinity changes nothing.
@@ -114,14 +117,18 @@ LODESTAR_FN Real lodestar_raiseLevel(Real level, Real floorLevel, Real maxLevel)
 }
 
 /// Half of log2 of the mean texel's solid angle over that of the texels about d: texels at a face's
-/// centre are larger than the mean, at a corner smaller, by (max|d_i|)^3.
-/// q(d) = -1.5 log2(max |d_i|) - 0.467   (MIP-4; 0.467 makes its mean over the sphere 0)
+/// centre are larger than the mean, at a corner smaller, by (max |d_i| / |d|)^3.
+/// q(d) = -1.5 log2(max |d_i| / |d|) - 0.467   (MIP-4; 0.467 is half of log2(6 / pi))
+/// @param d any length but huge (squares must not overflow)  @return [-0.467, 0.722]; 0 for the zero
+/// vector
 LODESTAR_FN Real lodestar_texelSizeLevel(vec3 d) {
     vec3 a = abs(d);
     Real m = max(max(a.x, a.y), a.z);
-    Real lengthSquared = dot(d, d);
-    return m > 0.0f ? LODESTAR_LITERAL(-0.75) * log2(m * m / lengthSquared) - LODESTAR_LITERAL(0.467)
-                    : Real(0.0f);
+    if (!(m > 0.0f)) {
+        return 0.0f;
+    }
+    vec3 p = d / m; // the squares of a tiny vector would underflow
+    return 0.75f * log2(dot(p, p)) - LODESTAR_LITERAL(0.467);
 }
 
 /// The level for one fetch from tent-filtered mips: eq. 12 with the bias that fits the tent, and
@@ -144,8 +151,9 @@ LODESTAR_FN Real lodestar_biasLevelAtVertex(Real leastLevel, Real nDotV) {
     return max(leastLevel + 0.5f * log2(clamp(nDotV, LODESTAR_LITERAL(1e-6), Real(1.0f))), Real(0.0f));
 }
 
-/// The share of a face's solid angle integral up to (x, y): F(x, y) = atan(xy / sqrt(1 + x^2 + y^2)).
-/// Differences of F lose digits for small texels in float; use lodestar_texelSolidAngle there.
+/// The solid angle of one texel: its area on the cube times the cosine over the squared distance,
+/// (2 / w)^2 (1 + u^2 + v^2)^(-3/2) at its centre. The exact difference of atan(xy / sqrt(1 + x^2 +
+/// y^2)) over the corners loses its digits in float.
 /// @param width face width >= 1  @param i, j texel column and row
 /// @return solid angle in steradians by the midpoint rule, exact as width grows: 4 % at 2 texels,
 /// 3e-6 at 256. The CPU's tables use the exact difference in double.

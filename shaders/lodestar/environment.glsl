@@ -76,7 +76,7 @@ LODESTAR_FN LodestarLookup lodestar_lookup(vec3 n, vec3 v, Real exponent) {
     Real nDotV = clamp(dot(n, v), Real(0.0f), Real(1.0f));
     vec3 r = 2.0f * dot(n, v) * n - v;
     lookup.direction = lodestar_safeNormalize(mix(n, r, lodestar_lookupBlend(exponent, nDotV)), n);
-    lookup.exponent = lodestar_phongFromBlinnPhong(exponent);
+    lookup.exponent = lodestar_lookupExponent(exponent, nDotV);
     return lookup;
 }
 
@@ -97,9 +97,12 @@ LODESTAR_FN vec3 lodestar_specularBias(LodestarCube cube, vec3 r, Real footprint
     return vec3(lodestar_host_cube(cube.slot, r, level));
 }
 
-/// One fetch from tent mips for a Phong lobe about a direction, level by lodestar_tentLevel.
-LODESTAR_FN vec3 lodestar_specularTent(LodestarCube cube, vec3 direction, Real exponent) {
+/// One fetch from tent mips for a Phong lobe about a direction, level by lodestar_tentLevel, raised
+/// to the pixel's footprint so that sharp reflections do not alias.
+LODESTAR_FN vec3 lodestar_specularTent(LodestarCube cube, vec3 direction, Real exponent,
+                                       Real footprint) {
     Real level = lodestar_tentLevel(direction, exponent, cube.width, cube.maxLevel);
+    level = lodestar_raiseLevel(level, footprint, cube.maxLevel);
     return vec3(lodestar_host_cube(cube.slot, direction, level));
 }
 
@@ -107,10 +110,6 @@ LODESTAR_FN vec3 lodestar_specularTent(LodestarCube cube, vec3 direction, Real e
 /// @param reflectionDx, reflectionDy screen derivatives of the reflection vector (0 on the CPU)
 LODESTAR_FN vec3 lodestar_specular(LodestarCube cube, LodestarSurface surface, vec3 reflectionDx,
                                    vec3 reflectionDy) {
-#if LODESTAR_SPECULAR == LODESTAR_SPECULAR_TENT
-    LodestarLookup lookup = lodestar_lookup(surface.normal, surface.view, surface.exponent);
-    return lodestar_specularTent(cube, lookup.direction, lookup.exponent);
-#else
     vec3 r = 2.0f * dot(surface.normal, surface.view) * surface.normal - surface.view;
 #if LODESTAR_SPECULAR == LODESTAR_SPECULAR_MIP
     return lodestar_specularMip(cube, r, surface.exponent);
@@ -118,9 +117,11 @@ LODESTAR_FN vec3 lodestar_specular(LodestarCube cube, LodestarSurface surface, v
     Real footprint = lodestar_footprintLevel(r, reflectionDx, reflectionDy, cube.width);
 #if LODESTAR_SPECULAR == LODESTAR_SPECULAR_MIP_FLOOR
     return lodestar_specularMipFloor(cube, r, surface.exponent, footprint);
-#else
+#elif LODESTAR_SPECULAR == LODESTAR_SPECULAR_BIAS
     return lodestar_specularBias(cube, r, footprint);
-#endif
+#else
+    LodestarLookup lookup = lodestar_lookup(surface.normal, surface.view, surface.exponent);
+    return lodestar_specularTent(cube, lookup.direction, lookup.exponent, footprint);
 #endif
 #endif
 }

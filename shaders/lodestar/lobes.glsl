@@ -58,18 +58,36 @@ LODESTAR_FN Real lodestar_phongNormaliser(Real exponent) {
 }
 
 /// The Phong exponent about the reflection of the normalised Blinn-Phong lobe (n.h)^s (n.l) at
-/// n = v: s' = s/4 + 3/8 + (5/8) / (1 + s/6). L2 error at most 0.029, width within 4 %, peak within
-/// 3 %; exactly Lambert's (1) at s = 0.
+/// n = v: s' = s/4 + 3/8 + (5/8) / (1 + s/6) (LOOK-5). L2 error at most 0.029, width within 4 %, peak
+/// within 3 %; exactly Lambert's (1) at s = 0.
 LODESTAR_FN Real lodestar_phongFromBlinnPhong(Real exponent) {
     Real s = lodestar_repairExponent(exponent);
     return 0.25f * s + 0.375f + 0.625f / (1.0f + s * LODESTAR_LITERAL(0.166666666666666667));
 }
 
-/// How far from the normal (0) to the reflection (1) the lookup for a Blinn-Phong lobe points.
-/// LODESTAR-FIT: see docs/derivations/lookup.md.
+/// The same for any view: the lobe about the reflection narrows across the plane of incidence as n.v
+/// falls, so that the best round lobe is sharper by (n.v^2 + q (1 - n.v^2))^(-1/2), where q falls
+/// from 1 for Lambert's lobe to 0.0373 for sharp ones (LOOK-8; constants fitted, see
+/// docs/derivations/lookup.md for the errors).
+/// @param exponent Blinn-Phong [0, 1e7]  @param nDotV [0, 1]
+/// @return Phong exponent, [1, 1.3e7]
+LODESTAR_FN Real lodestar_lookupExponent(Real exponent, Real nDotV) {
+    Real s = lodestar_repairExponent(exponent);
+    Real rise = 1.0f + LODESTAR_LITERAL(0.4075) * s;
+    Real q = LODESTAR_LITERAL(0.0373) + LODESTAR_LITERAL(0.9627) / (rise * rise);
+    Real c2 = clamp(nDotV * nDotV, Real(0.0f), Real(1.0f));
+    return lodestar_phongFromBlinnPhong(s) * inversesqrt(c2 + q * (1.0f - c2));
+}
+
+/// How far from the normal (0) to the reflection (1) the lookup for a Blinn-Phong lobe points; the
+/// blended vector is made unit after. t = o / (1 + o), o = a s / sqrt(1 + d s) + b s^2 n.v / (s + f)
+/// (LOOK-7; constants fitted). Rises with s from 0 at s = 0 to 1; finite everywhere.
+/// @param exponent Blinn-Phong [0, 1e7]  @param nDotV [0, 1]
 LODESTAR_FN Real lodestar_lookupBlend(Real exponent, Real nDotV) {
     Real s = lodestar_repairExponent(exponent);
-    return s / (s + 2.0f);
+    Real odds = LODESTAR_LITERAL(0.2551) * s * inversesqrt(1.0f + LODESTAR_LITERAL(0.5623) * s) +
+                LODESTAR_LITERAL(0.1426) * nDotV * s * (s / (s + LODESTAR_LITERAL(4.136)));
+    return odds / (1.0f + odds);
 }
 
 /// Radiance-per-irradiance of direct light: diffuse and Blinn-Phong terms times n.l, pi divided.
@@ -78,7 +96,7 @@ LODESTAR_FN Real lodestar_lookupBlend(Real exponent, Real nDotV) {
 LODESTAR_FN vec3 lodestar_directReflectance(vec3 n, vec3 v, vec3 l, vec3 diffuse, vec3 f0,
                                             Real exponent) {
     Real nDotL = clamp(dot(n, l), Real(0.0f), Real(1.0f));
-    vec3 h = lodestar_safeNormalize(l + v, n);
+    vec3 h = lodestar_safeNormalize(l + v, -n); // opposite l and v have no half vector: no highlight
     Real s = lodestar_repairExponent(exponent);
     vec3 fresnel = lodestar_fresnel(f0, dot(v, h));
     Real lobe = dot(n, h) > 0.0f ? lodestar_cosinePowerBetween(n, h, s) : Real(0.0f);
