@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "app/command.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace lodestar::app {
+namespace {
+
+std::optional<double> parseNumber(std::string_view text) {
+    if (!text.empty() && text.front() == '+') {
+        text.remove_prefix(1);
+    }
+    double value = 0.0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool whole = error == std::errc{} && stop == text.data() + text.size();
+    return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+} // namespace
+
+int fail(const core::Error& error) {
+    std::fprintf(stderr, "lodestar: %s\n", error.message().c_str());
+    return static_cast<int>(error.code);
+}
+
+void warn(const core::Tally& warnings, const std::string& file) {
+    for (const auto& [rule, count] : warnings.counts()) {
+        std::fprintf(stderr, "lodestar: warning: %s: %s (%llu times)\n", file.c_str(), rule.c_str(),
+                     static_cast<unsigned long long>(count));
+    }
+}
+
+core::Error usage(std::string what, std::string where) {
+    return {core::ErrorCode::Usage, std::move(what), {}, std::move(where)};
+}
+
+core::Result<std::vector<double>> parseNumbers(std::string_view text, std::size_t count,
+                                               const std::string& option) {
+    std::vector<double> numbers;
+    std::string_view rest = text;
+    while (true) {
+        const std::size_t comma = rest.find(',');
+        const std::optional<double> number = parseNumber(rest.substr(0, comma));
+        if (!number) {
+            break;
+        }
+        numbers.push_back(*number);
+        if (comma == std::string_view::npos) {
+            if (numbers.size() == count) {
+                return numbers;
+            }
+            break;
+        }
+        rest.remove_prefix(comma + 1);
+    }
+    return usage("'" + std::string(text) + "' is not " + std::to_string(count) +
+                     " finite numbers separated by commas",
+                 option);
+}
+
+core::Result<glm::dvec3> parseVector(std::string_view text, const std::string& option) {
+    auto numbers = parseNumbers(text, 3, option);
+    if (!numbers) {
+        return numbers.error();
+    }
+    return glm::dvec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+}
+
+core::Result<double> parseExponent(std::string_view text, const std::string& option) {
+    if (text == "inf" || text == "mirror") {
+        return std::numeric_limits<double>::infinity();
+    }
+    const std::optional<double> value = parseNumber(text);
+    if (!value || *value < 0.0) {
+        return usage("'" + std::string(text) + "' is not an exponent: a number from 0, or inf", option);
+    }
+    return *value;
+}
+
+} // namespace lodestar::app

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+//
+// The subcommands of `lodestar`, one file each. Each adds itself to the command line and sets the
+// exit status when it has run.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace lodestar::app {
+
+void addRender(CLI::App& app, int& status);
+void addPlan(CLI::App& app, int& status);
+void addSample(CLI::App& app, int& status);
+void addCheck(CLI::App& app, int& status);
+
+} // namespace lodestar::app

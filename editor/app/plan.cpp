@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include <cstdio>
+#include <memory>
+
+#include "app/command.h"
+#include "app/commands.h"
+#include "app/plan_json.h"
+#include "app/scene_options.h"
+
+namespace lodestar::app {
+namespace {
+
+int runPlan(const SceneOptions& options) {
+    auto loaded = load(options);
+    if (!loaded) {
+        return fail(loaded.error());
+    }
+    warn(loaded->environment.warnings, loaded->environmentName);
+    warn(loaded->scene.warnings, options.scene);
+    const plan::PlanInput input =
+        scene::planInput(loaded->scene, loaded->view, loaded->settings,
+                         {loaded->environmentName, loaded->environment.base.width(), true});
+    std::printf("%s\n", toJson(plan::plan(input)).dump(2).c_str());
+    return 0;
+}
+
+} // namespace
+
+void addPlan(CLI::App& app, int& status) {
+    auto options = std::make_shared<SceneOptions>();
+    CLI::App* command = app.add_subcommand(
+        "plan", "Say what a frame of a scene would simulate, and why, without rendering");
+    addSceneOptions(*command, *options);
+    command->footer("Example: what does the glass of a scene cost?\n"
+                    "  lodestar plan house.gltf --environment dusk.hdr");
+    command->callback([options, &status] { status = runPlan(*options); });
+}
+
+} // namespace lodestar::app

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "app/command.h"
+#include "app/commands.h"
+#include "app/plan_json.h"
+#include "app/scene_options.h"
+#include "io/file.h"
+#include "io/image_file.h"
+#include "lodestar/display.glsl"
+#include "platform/headless_context.h"
+
+namespace lodestar::app {
+namespace {
+
+struct RenderOptions {
+    SceneOptions scene;
+    std::string output;
+    std::string stats;
+    double exposure = 0.0; ///< EV
+    int samples = 0;       ///< a pixel; 0: 4 for PNG, 1 for EXR
+    int frames = 1;
+};
+
+enum class OutputKind { Png, Exr };
+
+core::Result<OutputKind> outputKind(const std::string& path) {
+    const std::string extension = std::filesystem::path(path).extension().string();
+    if (extension == ".png" || extension == ".PNG") {
+        return OutputKind::Png;
+    }
+    if (extension == ".exr" || extension == ".EXR") {
+        return OutputKind::Exr;
+    }
+    return usage("'" + path + "' ends in neither .png nor .exr", "-o");
+}
+
+/// The file of one frame: %04d is its number.
+std::string framePath(const std::string& output, int frame) {
+    const std::size_t at = output.find("%04d");
+    if (at == std::string::npos) {
+        return output;
+    }
+    char number[16];
+    std::snprintf(number, sizeof number, "%04d", frame);
+    return output.substr(0, at) + number + output.substr(at + 4);
+}
+
+/// Premultiplied linear radiance to encoded, unassociated display values.
+core::Image toDisplay(const core::Image& radiance, double exposure) {
+    core::Image display = radiance;
+    const auto factor = static_cast<float>(std::exp2(exposure));
+    for (std::size_t i = 0; i < display.pixels().size(); i += 4) {
+        float* pixel = &display.pixels()[i];
+        const float alpha = pixel[3];
+        for (int c = 0; c < 3; ++c) {
+            const float value = alpha > 0.0f ? pixel[c] / alpha * factor : 0.0f;
+            pixel[c] = shader::lodestar_srgbFromLinear(shader::lodestar_filmic(value));
+        }
+    }
+    return display;
+}
+
+nlohmann::json stats(const std::vector<scene::Frame>& frames, const gl::WorkCounters& total,
+                     const LoadedScene& loaded, const gl::Device& device) {
+    nlohmann::json perFrame = nlohmann::json::array();
+    for (const scene::Frame& frame : frames) {
+        perFrame.push_back({{"counters", toJson(frame.counters)},
+                            {"times_ms", frame.timesMs},
+                            {"effects", toJson(frame.plan)["effects"]}});
+    }
+    core::Tally warnings = loaded.environment.warnings;
+    warnings.merge(loaded.scene.warnings);
+    warnings.add("pixel not finite, set to 0", frames.back().repairedPixels);
+    return {{"plan", toJson(frames.back().plan)},
+            {"counters", toJson(total)},
+            {"times_ms", frames.back().timesMs},
+            {"frames", perFrame},
+            {"warnings", warnings.counts()},
+            {"renderer", device.capabilities().renderer},
+            {"estimators",
+             {{"specular", lighting::estimatorName(loaded.settings.specular)},
+              {"diffuse", lighting::estimatorName(loaded.settings.diffuse)}}}};
+}
+
+core::Result<void> renderAll(const RenderOptions& options, OutputKind kind, LoadedScene& loaded) {
+    auto context = platform::HeadlessContext::create();
+    if (!context) {
+        return context.error();
+    }
+    auto device = gl::Device::create();
+    if (!device) {
+        return device.error();
+    }
+    auto renderer = scene::Renderer::make(**device, loaded.scene);
+    if (!renderer) {
+        return renderer.error();
+    }
+    (*renderer)->setEnvironment(loaded.environmentName, std::move(loaded.environment.base));
+    std::vector<scene::Frame> frames;
+    const bool sequence = options.output.find("%04d") != std::string::npos;
+    for (int i = 0; i < options.frames; ++i) {
+        auto frame = (*renderer)->render(loaded.view, loaded.settings);
+        if (!frame) {
+            return frame.error();
+        }
+        if (sequence || i + 1 == options.frames) {
+            const core::Image image =
+                kind == OutputKind::Png ? toDisplay(frame->radiance, options.exposure) : frame->radiance;
+            if (auto written = io::writeImage(framePath(options.output, i), image); !written) {
+                return written;
+            }
+        }
+        frame->radiance = {};
+        frames.push_back(std::move(*frame));
+    }
+    if (!options.stats.empty()) {
+        const std::string text =
+            stats(frames, (*device)->counters(), loaded, **device).dump(2) + "\n";
+        if (auto written = io::writeFile(options.stats, text.data(), text.size()); !written) {
+            return written;
+        }
+    }
+    for (const std::string& message : (*device)->messages()) {
+        std::fprintf(stderr, "lodestar: warning: OpenGL: %s\n", message.c_str());
+    }
+    return {};
+}
+
+int runRender(const RenderOptions& options) {
+    auto kind = outputKind(options.output);
+    if (!kind) {
+        return fail(kind.error());
+    }
+    if (!std::isfinite(options.exposure) || std::abs(options.exposure) > 64.0) {
+        return fail(usage("an exposure is a number of stops within +-64", "--exposure"));
+    }
+    auto loaded = load(options.scene);
+    if (!loaded) {
+        return fail(loaded.error());
+    }
+    warn(loaded->environment.warnings, loaded->environmentName);
+    warn(loaded->scene.warnings, options.scene.scene);
+    const int samples = options.samples > 0 ? options.samples : (*kind == OutputKind::Png ? 4 : 1);
+    loaded->settings.samplesPerSide = static_cast<int>(std::lround(std::sqrt(samples)));
+    if (auto rendered = renderAll(options, *kind, *loaded); !rendered) {
+        return fail(rendered.error());
+    }
+    return 0;
+}
+
+} // namespace
+
+void addRender(CLI::App& app, int& status) {
+    auto options = std::make_shared<RenderOptions>();
+    CLI::App* command = app.add_subcommand("render", "Render a scene to a picture, without a window");
+    addSceneOptions(*command, options->scene);
+    command->add_option("-o,--output", options->output,
+                        "OUT.png (exposure and filmic tone map) or OUT.exr (linear radiance)")
+        ->required();
+    command->add_option("--exposure", options->exposure, "Stops by which a PNG is brightened")
+        ->capture_default_str();
+    command->add_option("--samples", options->samples,
+                        "Samples a pixel: 1, 4, 9 or 16 (default 4 for PNG; 1 for EXR, so that every\n"
+                        "pixel holds a radiance and not a blend)")
+        ->check(CLI::IsMember({1, 4, 9, 16}));
+    command->add_option("--frames", options->frames,
+                        "Frames drawn in one process; with %04d in OUT each is kept, else the last")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    command->add_option("--stats", options->stats, "Write the plan, counters and times as JSON");
+    command->footer("Example: a model in a studio, one stop brighter\n"
+                    "  lodestar render helmet.glb --environment studio.hdr --exposure 1 -o helmet.png");
+    command->callback([options, &status] { status = runRender(*options); });
+}
+
+} // namespace lodestar::app

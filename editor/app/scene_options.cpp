@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "app/scene_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <glm/trigonometric.hpp>
+
+#include "app/command.h"
+#include "io/gltf.h"
+
+namespace lodestar::app {
+namespace {
+
+constexpr int kMaxSide = 16384;
+constexpr const char* kClearSky = "sky";
+
+core::Result<glm::ivec2> parseSize(const std::string& text) {
+    int width = 0;
+    int height = 0;
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 1 || height < 1 ||
+        width > kMaxSide || height > kMaxSide) {
+        return usage("'" + text + "' is not a size WxH of 1 to 16384 pixels a side", "--size");
+    }
+    return glm::ivec2(width, height);
+}
+
+core::Result<float> unitInterval(double value, const std::string& key) {
+    if (value < 0.0 || value > 1.0) {
+        return usage(key + " is a reflectance in [0, 1]", "--override-material");
+    }
+    return static_cast<float>(value);
+}
+
+/// "diffuse=R,G,B,f0=R,G,B,exponent=S", each part optional, in any order.
+core::Result<scene::MaterialOverride> parseOverride(const std::string& text) {
+    scene::MaterialOverride values;
+    std::size_t at = 0;
+    while (at < text.size()) {
+        const std::size_t equals = text.find('=', at);
+        const std::string key = text.substr(at, equals == std::string::npos ? equals : equals - at);
+        const std::size_t next = equals == std::string::npos ? equals : text.find('=', equals + 1);
+        std::size_t end = next == std::string::npos ? text.size() : text.rfind(',', next);
+        if (equals == std::string::npos || end == std::string::npos || end <= equals) {
+            return usage("'" + text + "' is not diffuse=R,G,B,f0=R,G,B,exponent=S", "--override-material");
+        }
+        const std::string value = text.substr(equals + 1, end - equals - 1);
+        if (key == "exponent") {
+            auto exponent = parseExponent(value, "--override-material");
+            if (!exponent) {
+                return exponent.error();
+            }
+            values.exponent = static_cast<float>(std::min(*exponent, 1e7));
+        } else if (key == "diffuse" || key == "f0") {
+            auto color = parseVector(value, "--override-material");
+            if (!color) {
+                return color.error();
+            }
+            for (int i = 0; i < 3; ++i) {
+                auto channel = unitInterval((*color)[i], key);
+                if (!channel) {
+                    return channel.error();
+                }
+                (key == "f0" ? values.f0 : values.diffuse)[i] = *channel;
+            }
+        } else {
+            return usage("unknown key '" + key + "'; the keys are diffuse, f0 and exponent",
+                         "--override-material");
+        }
+        at = end + 1;
+    }
+    return values;
+}
+
+core::Result<lighting::Estimator> parseShaderEstimator(const std::string& name, lighting::Term term,
+                                                       const lighting::Estimator& otherwise,
+                                                       const std::string& option) {
+    if (name.empty()) {
+        return otherwise;
+    }
+    auto estimator = lighting::parseEstimator(name, term);
+    if (!estimator) {
+        core::Error error = estimator.error();
+        error.where = option;
+        return error;
+    }
+    if (estimator->kind == lighting::EstimatorKind::Reference) {
+        return usage("'reference' runs on the CPU: ask for one lookup with `lodestar sample`", option);
+    }
+    return estimator;
+}
+
+core::Result<scene::CameraRequest> cameraRequest(const SceneOptions& options) {
+    scene::CameraRequest request;
+    request.name = options.camera;
+    const std::pair<const std::string*, std::optional<glm::vec3>*> points[] = {
+        {&options.eye, &request.eye}, {&options.target, &request.target}};
+    for (const auto& [text, point] : points) {
+        if (!text->empty()) {
+            auto vector = parseVector(*text, text == &options.eye ? "--eye" : "--target");
+            if (!vector) {
+                return vector.error();
+            }
+            *point = glm::vec3(*vector);
+        }
+    }
+    if (options.fovDegrees != 0.0) {
+        if (!(options.fovDegrees > 0.0 && options.fovDegrees < 180.0)) {
+            return usage("the field of view lies between 0 and 180 degrees", "--fov");
+        }
+        request.verticalFov = static_cast<float>(glm::radians(options.fovDegrees));
+    }
+    return request;
+}
+
+core::Result<scene::RenderSettings> renderSettings(const SceneOptions& options) {
+    scene::RenderSettings settings;
+    auto size = parseSize(options.size);
+    if (!size) {
+        return size.error();
+    }
+    settings.width = size->x;
+    settings.height = size->y;
+    auto specular = parseShaderEstimator(options.specular, lighting::Term::Glossy,
+                                         lighting::kDefaultSpecular, "--specular");
+    if (!specular) {
+        return specular.error();
+    }
+    settings.specular = *specular;
+    auto diffuse = parseShaderEstimator(options.diffuse, lighting::Term::Diffuse,
+                                        lighting::kDefaultDiffuse, "--diffuse");
+    if (!diffuse) {
+        return diffuse.error();
+    }
+    settings.diffuse = *diffuse;
+    settings.backdrop = !options.noBackdrop;
+    settings.seamless = !options.faceSeams;
+    if (!options.materialOverride.empty()) {
+        auto values = parseOverride(options.materialOverride);
+        if (!values) {
+            return values.error();
+        }
+        settings.materialOverride = *values;
+    }
+    return settings;
+}
+
+} // namespace
+
+void addSceneOptions(CLI::App& command, SceneOptions& options) {
+    command.add_option("SCENE", options.scene, "The scene, .gltf or .glb")->required();
+    command.add_option("--environment", options.environment,
+                       "Distant light: a panorama, a cube cross or strip, six files STEM_px.EXT .., or\n"
+                       "constant:R,G,B | gradient:DOWN,UP | disc:X,Y,Z,DEGREES,INSIDE[,OUTSIDE] |\n"
+                       "faces:C;C;C;C;C;C (C a number or R/G/B). Default: a clear sky at 15:00");
+    command.add_option("--environment-width", options.cubeWidth,
+                       "Face width of the environment's cube map, in texels")
+        ->check(CLI::Range(1, 4096))
+        ->capture_default_str();
+    command.add_option("--camera", options.camera, "A camera of the scene, by name or number");
+    command.add_option("--eye", options.eye, "Viewpoint X,Y,Z in metres");
+    command.add_option("--target", options.target, "Point looked at, X,Y,Z in metres");
+    command.add_option("--fov", options.fovDegrees, "Vertical field of view in degrees");
+    command.add_option("--size", options.size, "Picture size WxH")->capture_default_str();
+    command.add_option("--specular", options.specular,
+                       "Glossy estimator: tent (default), mip, mip-floor, bias:LAMBDA, bias:LAMBDA:vertex");
+    command.add_option("--diffuse", options.diffuse,
+                       "Diffuse estimator: irradiance (default), sh9, lowest-mip, bias:LAMBDA");
+    command.add_option("--override-material", options.materialOverride,
+                       "diffuse=R,G,B,f0=R,G,B,exponent=S for every material");
+    command.add_flag("--no-backdrop", options.noBackdrop, "Background 0 with alpha 0");
+    command.add_flag("--face-seams", options.faceSeams,
+                     "Filter each cube face on its own, to see what seamless filtering mends");
+    command.add_option("--asset-root", options.assetRoot,
+                       "Folder that the scene's files may not leave (default: the scene's own)");
+}
+
+core::Result<LoadedScene> load(const SceneOptions& options) {
+    LoadedScene loaded;
+    auto settings = renderSettings(options);
+    if (!settings) {
+        return settings.error();
+    }
+    loaded.settings = *settings;
+    auto request = cameraRequest(options);
+    if (!request) {
+        return request.error();
+    }
+    loaded.environmentName = options.environment.empty() ? kClearSky : options.environment;
+    if (options.environment.empty()) {
+        loaded.environment.base =
+            lighting::cubeFromAnalytic(lighting::ClearSkyEnvironment{}, options.cubeWidth);
+    } else {
+        auto environment = io::loadEnvironment(options.environment, options.cubeWidth);
+        if (!environment) {
+            return environment.error();
+        }
+        loaded.environment = std::move(*environment);
+    }
+    auto file = io::loadGltf(options.scene, {options.assetRoot, true});
+    if (!file) {
+        return core::inFile(file.error(), options.scene);
+    }
+    loaded.scene = scene::buildScene(std::move(*file));
+    const float aspect =
+        static_cast<float>(loaded.settings.width) / static_cast<float>(loaded.settings.height);
+    auto view = scene::chooseView(loaded.scene, *request, aspect);
+    if (!view) {
+        return core::inFile(view.error(), options.scene);
+    }
+    loaded.view = *view;
+    return loaded;
+}
+
+} // namespace lodestar::app

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "gl/buffer.h"
+
+#include <utility>
+
+#include <epoxy/gl.h>
+
+namespace lodestar::gl {
+namespace {
+
+GLenum glTarget(BufferKind kind) {
+    switch (kind) {
+    case BufferKind::Index: return GL_ELEMENT_ARRAY_BUFFER;
+    case BufferKind::Uniform: return GL_UNIFORM_BUFFER;
+    case BufferKind::Vertex: break;
+    }
+    return GL_ARRAY_BUFFER;
+}
+
+} // namespace
+
+Buffer::Buffer(Device& device, BufferKind kind, std::span<const std::byte> bytes)
+    : device_(&device), kind_(kind) {
+    glGenBuffers(1, &id_);
+    update(bytes);
+}
+
+Buffer::Buffer(Buffer&& other) noexcept { *this = std::move(other); }
+
+Buffer& Buffer::operator=(Buffer&& other) noexcept {
+    std::swap(device_, other.device_);
+    std::swap(kind_, other.kind_);
+    std::swap(id_, other.id_);
+    std::swap(size_, other.size_);
+    return *this;
+}
+
+Buffer::~Buffer() {
+    if (id_ != 0) {
+        glDeleteBuffers(1, &id_);
+    }
+}
+
+void Buffer::update(std::span<const std::byte> bytes) {
+    // An index buffer binding belongs to a vertex array: fill through a target that does not.
+    const GLenum target = kind_ == BufferKind::Index ? GL_ARRAY_BUFFER : glTarget(kind_);
+    glBindBuffer(target, id_);
+    if (bytes.size() > size_) {
+        glBufferData(target, static_cast<GLsizeiptr>(bytes.size()), bytes.data(),
+                     kind_ == BufferKind::Uniform ? GL_DYNAMIC_DRAW : GL_STATIC_DRAW);
+        size_ = bytes.size();
+    } else {
+        glBufferSubData(target, 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+    }
+    ++device_->counters().uploads;
+    device_->counters().uploadBytes += bytes.size();
+}
+
+void Buffer::bindBlock(unsigned binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, id_); }
+
+void Buffer::bind() const { glBindBuffer(glTarget(kind_), id_); }
+
+VertexArray::VertexArray(Device&) { glGenVertexArrays(1, &id_); }
+
+VertexArray::VertexArray(VertexArray&& other) noexcept { *this = std::move(other); }
+
+VertexArray& VertexArray::operator=(VertexArray&& other) noexcept {
+    std::swap(id_, other.id_);
+    return *this;
+}
+
+VertexArray::~VertexArray() {
+    if (id_ != 0) {
+        glDeleteVertexArrays(1, &id_);
+    }
+}
+
+void VertexArray::setAttribute(Attribute attribute, const Buffer& buffer, int components) {
+    const auto location = static_cast<GLuint>(attribute);
+    bind();
+    buffer.bind();
+    glEnableVertexAttribArray(location);
+    glVertexAttribPointer(location, components, GL_FLOAT, GL_FALSE, 0, nullptr);
+}
+
+void VertexArray::setIndices(const Buffer& buffer) {
+    bind();
+    buffer.bind();
+}
+
+void VertexArray::bind() const { glBindVertexArray(id_); }
+
+void drawIndexed(Device& device, DrawMode mode, int indexCount) {
+    const GLenum glMode = mode == DrawMode::Points  ? GL_POINTS
+                          : mode == DrawMode::Lines ? GL_LINES
+                                                    : GL_TRIANGLES;
+    glDrawElements(glMode, indexCount, GL_UNSIGNED_INT, nullptr);
+    ++device.counters().draws;
+}
+
+void drawFullScreen(Device& device) {
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    ++device.counters().draws;
+}
+
+} // namespace lodestar::gl

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+//
+// Vertex, index and uniform buffers, and vertex arrays. Move-only.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "gl/device.h"
+
+namespace lodestar::gl {
+
+enum class BufferKind { Vertex, Index, Uniform };
+
+class Buffer {
+public:
+    Buffer() = default;
+    /// Makes a buffer of the bytes.
+    Buffer(Device& device, BufferKind kind, std::span<const std::byte> bytes);
+    Buffer(Buffer&& other) noexcept;
+    Buffer& operator=(Buffer&& other) noexcept;
+    ~Buffer();
+
+    /// Replaces the content; the storage grows if it must.
+    void update(std::span<const std::byte> bytes);
+    /// Binds a uniform buffer to a block's binding point.
+    void bindBlock(unsigned binding) const;
+    void bind() const;
+    [[nodiscard]] unsigned id() const { return id_; }
+
+private:
+    Device* device_ = nullptr;
+    BufferKind kind_ = BufferKind::Vertex;
+    unsigned id_ = 0;
+    std::size_t size_ = 0;
+};
+
+/// Attribute locations shared by C++ and shaders/host/mesh.vert.
+enum class Attribute : unsigned { Position = 0, Normal = 1, Tangent = 2, Uv0 = 3, Uv1 = 4, Color = 5 };
+
+class VertexArray {
+public:
+    VertexArray() = default;
+    explicit VertexArray(Device& device);
+    VertexArray(VertexArray&& other) noexcept;
+    VertexArray& operator=(VertexArray&& other) noexcept;
+    ~VertexArray();
+
+    /// Adds a float attribute of 1 to 4 components, tightly packed in its buffer.
+    void setAttribute(Attribute attribute, const Buffer& buffer, int components);
+    void setIndices(const Buffer& buffer);
+    void bind() const;
+
+private:
+    unsigned id_ = 0;
+};
+
+/// Draws indexed triangles (or lines, points) of 32-bit indices from the bound vertex array.
+enum class DrawMode { Points, Lines, Triangles };
+void drawIndexed(Device& device, DrawMode mode, int indexCount);
+/// Draws one triangle that covers the viewport; the vertex shader makes it from gl_VertexID.
+void drawFullScreen(Device& device);
+
+} // namespace lodestar::gl

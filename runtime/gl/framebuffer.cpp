@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "gl/framebuffer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <epoxy/gl.h>
+
+namespace lodestar::gl {
+
+Framebuffer::Framebuffer(Framebuffer&& other) noexcept { *this = std::move(other); }
+
+Framebuffer& Framebuffer::operator=(Framebuffer&& other) noexcept {
+    std::swap(device_, other.device_);
+    std::swap(id_, other.id_);
+    std::swap(width_, other.width_);
+    std::swap(height_, other.height_);
+    std::swap(color_, other.color_);
+    std::swap(depth_, other.depth_);
+    return *this;
+}
+
+Framebuffer::~Framebuffer() {
+    if (id_ != 0) {
+        glDeleteFramebuffers(1, &id_);
+    }
+}
+
+core::Result<Framebuffer> Framebuffer::make(Device& device, int width, int height) {
+    auto color = Texture::makeColorTarget(device, width, height);
+    if (!color) {
+        return color.error();
+    }
+    auto depth = Texture::makeDepthTarget(device, width, height);
+    if (!depth) {
+        return depth.error();
+    }
+    Framebuffer framebuffer;
+    framebuffer.device_ = &device;
+    framebuffer.width_ = width;
+    framebuffer.height_ = height;
+    framebuffer.color_ = std::move(*color);
+    framebuffer.depth_ = std::move(*depth);
+    glGenFramebuffers(1, &framebuffer.id_);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id_);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+                           framebuffer.color_.id(), 0);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D,
+                           framebuffer.depth_.id(), 0);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+        return core::Error{core::ErrorCode::NoOpenGl, "the driver cannot render to 32-bit float colour",
+                           {}, {}};
+    }
+    return framebuffer;
+}
+
+void Framebuffer::begin() {
+    glBindFramebuffer(GL_FRAMEBUFFER, id_);
+    glViewport(0, 0, width_, height_);
+    glDepthMask(GL_TRUE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    glClearDepth(1.0);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    ++device_->counters().passes;
+    device_->counters().texelsWritten +=
+        static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
+}
+
+core::Image Framebuffer::read() const {
+    core::Image image(width_, height_, 4);
+    glBindFramebuffer(GL_FRAMEBUFFER, id_);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, image.pixels().data());
+    for (int y = 0; y < height_ / 2; ++y) {
+        std::swap_ranges(image.at(0, y), image.at(0, y) + std::ptrdiff_t{4} * width_,
+                         image.at(0, height_ - 1 - y));
+    }
+    return image;
+}
+
+} // namespace lodestar::gl

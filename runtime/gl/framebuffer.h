@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+//
+// An offscreen target of float colour and depth. Move-only.
+#pragma once
+
+#include "core/image.h"
+#include "gl/texture.h"
+
+namespace lodestar::gl {
+
+class Framebuffer {
+public:
+    Framebuffer() = default;
+    Framebuffer(Framebuffer&& other) noexcept;
+    Framebuffer& operator=(Framebuffer&& other) noexcept;
+    ~Framebuffer();
+
+    /// @errors NoOpenGl if the driver has no memory or cannot render to float colour
+    [[nodiscard]] static core::Result<Framebuffer> make(Device& device, int width, int height);
+
+    /// Binds it with a viewport over all of it, cleared to 0 and depth 1. Counts a pass.
+    void begin();
+    /// Reads all pixels back, row 0 at the top, 4 channels. Blocks until drawing is done.
+    [[nodiscard]] core::Image read() const;
+
+    [[nodiscard]] int width() const { return width_; }
+    [[nodiscard]] int height() const { return height_; }
+
+private:
+    Device* device_ = nullptr;
+    unsigned id_ = 0;
+    int width_ = 0;
+    int height_ = 0;
+    Texture color_;
+    Texture depth_;
+};
+
+} // namespace lodestar::gl

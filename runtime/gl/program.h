@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+//
+// Programs from the embedded shader text: includes flattened, features as defines, compiler messages
+// mapped back to file and line.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/result.h"
+#include "gl/device.h"
+
+namespace lodestar::gl {
+
+/// Macro names and values put before a shader's text.
+using Defines = std::vector<std::pair<std::string, std::string>>;
+
+/// One file of shaders/ ("lodestar/cube.glsl", "host/mesh.frag") as it is; empty if there is none.
+[[nodiscard]] std::string_view shaderFile(std::string_view name);
+
+/// Names of all embedded files.
+[[nodiscard]] std::vector<std::string_view> shaderFileNames();
+
+/// A whole shader: version line, defines, and the file with its includes in place, each file once.
+/// @param version the number after #version, 330 or later core
+/// @errors Internal naming an include that does not exist
+[[nodiscard]] core::Result<std::string> assembleShader(std::string_view name, int version,
+                                                       const Defines& defines);
+
+/// A linked vertex and fragment program. Move-only.
+class Program {
+public:
+    Program() = default;
+    Program(Program&& other) noexcept;
+    Program& operator=(Program&& other) noexcept;
+    ~Program();
+
+    /// @errors Internal with the driver's first message, as FILE: message (line)
+    [[nodiscard]] static core::Result<Program> make(Device& device, std::string_view vertexFile,
+                                                    std::string_view fragmentFile,
+                                                    const Defines& defines);
+    /// The same from whole texts.
+    [[nodiscard]] static core::Result<Program> makeFromText(Device& device, const std::string& vertex,
+                                                            const std::string& fragment,
+                                                            const std::string& label);
+
+    [[nodiscard]] unsigned id() const { return id_; }
+    [[nodiscard]] explicit operator bool() const { return id_ != 0; }
+    void use() const;
+    /// Location of a uniform, -1 if the program has none of that name.
+    [[nodiscard]] int uniform(const char* name) const;
+    /// Gives a sampler its texture unit; does nothing where the program has no such sampler.
+    void setSampler(const char* name, int unit) const;
+    /// Gives a uniform block its binding point; does nothing where the program lacks the block.
+    void setBlock(const char* name, unsigned binding) const;
+
+private:
+    Device* device_ = nullptr;
+    unsigned id_ = 0;
+};
+
+} // namespace lodestar::gl

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+#include "gl/texture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <epoxy/gl.h>
+
+namespace lodestar::gl {
+namespace {
+
+constexpr float kLargestHalf = 65504.0f;
+/// Beyond this scale dark texels lose digits in a half float; such maps are stored as floats.
+constexpr float kLargestHalfScale = 64.0f;
+
+GLint glWrap(Wrap wrap) {
+    switch (wrap) {
+    case Wrap::MirroredRepeat: return GL_MIRRORED_REPEAT;
+    case Wrap::ClampToEdge: return GL_CLAMP_TO_EDGE;
+    case Wrap::Repeat: break;
+    }
+    return GL_REPEAT;
+}
+
+GLint glMinification(const SamplerState& sampler) {
+    if (!sampler.mipmapped) {
+        return sampler.minifyLinear ? GL_LINEAR : GL_NEAREST;
+    }
+    if (sampler.mipLinear) {
+        return sampler.minifyLinear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
+    }
+    return sampler.minifyLinear ? GL_LINEAR_MIPMAP_NEAREST : GL_NEAREST_MIPMAP_NEAREST;
+}
+
+/// Drains the error flags; out of memory is the one that is the world's fault.
+core::Result<void> checkAllocation(const char* label) {
+    bool outOfMemory = false;
+    bool other = false;
+    for (GLenum error = glGetError(); error != GL_NO_ERROR; error = glGetError()) {
+        outOfMemory = outOfMemory || error == GL_OUT_OF_MEMORY;
+        other = true;
+    }
+    if (other) {
+        return core::Error{core::ErrorCode::NoOpenGl,
+                           std::string("the driver ") +
+                               (outOfMemory ? "has no memory for" : "refused") + " the texture '" +
+                               label + "'",
+                           {},
+                           {}};
+    }
+    return {};
+}
+
+void setLabel(const Device& device, unsigned id, const char* label) {
+    if (device.capabilities().debugOutput) {
+        glObjectLabel(GL_TEXTURE, id, -1, label);
+    }
+}
+
+} // namespace
+
+Texture::Texture(Device& device, unsigned target) : device_(&device), target_(target) {
+    glGenTextures(1, &id_);
+}
+
+Texture::Texture(Texture&& other) noexcept { *this = std::move(other); }
+
+Texture& Texture::operator=(Texture&& other) noexcept {
+    if (this != &other) {
+        reset();
+        device_ = std::exchange(other.device_, nullptr);
+        id_ = std::exchange(other.id_, 0u);
+        target_ = other.target_;
+        width_ = other.width_;
+        levelCount_ = other.levelCount_;
+        scale_ = other.scale_;
+        bytes_ = std::exchange(other.bytes_, 0u);
+    }
+    return *this;
+}
+
+Texture::~Texture() { reset(); }
+
+void Texture::reset() {
+    if (id_ != 0) {
+        glDeleteTextures(1, &id_);
+        device_->counters().textureBytes -= bytes_;
+        id_ = 0;
+        bytes_ = 0;
+    }
+}
+
+Texture Texture::adopt(Device& device, unsigned id, unsigned target) {
+    Texture texture;
+    texture.device_ = &device;
+    texture.id_ = id;
+    texture.target_ = target;
+    return texture;
+}
+
+unsigned Texture::release() {
+    if (device_ != nullptr) {
+        device_->counters().textureBytes -= bytes_;
+    }
+    bytes_ = 0;
+    return std::exchange(id_, 0u);
+}
+
+core::Result<Texture> Texture::make2D(Device& device, const core::Image& image,
+                                      TexelEncoding encoding, const SamplerState& sampler,
+                                      const char* label) {
+    LODESTAR_EXPECT(image.channels() == 4 && !image.empty(), "a 2-D texture takes 4 channels");
+    std::vector<std::uint8_t> texels(image.pixels().size());
+    std::transform(image.pixels().begin(), image.pixels().end(), texels.begin(), [](float value) {
+        return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
+    });
+    Texture texture(device, GL_TEXTURE_2D);
+    texture.width_ = image.width();
+    glBindTexture(GL_TEXTURE_2D, texture.id_);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexImage2D(GL_TEXTURE_2D, 0, encoding == TexelEncoding::Srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8,
+                 image.width(), image.height(), 0, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
+    if (auto allocated = checkAllocation(label); !allocated) {
+        return allocated.error();
+    }
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, glWrap(sampler.wrapS));
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, glWrap(sampler.wrapT));
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER,
+                    sampler.magnifyLinear ? GL_LINEAR : GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, glMinification(sampler));
+    texture.bytes_ = texels.size();
+    if (sampler.mipmapped) {
+        glGenerateMipmap(GL_TEXTURE_2D);
+        texture.bytes_ += texels.size() / 3;
+        ++device.counters().passes;
+        device.counters().texelsWritten += texels.size() / 12;
+    }
+    setLabel(device, texture.id_, label);
+    ++device.counters().uploads;
+    device.counters().uploadBytes += texels.size();
+    device.counters().texelsWritten += texels.size() / 4;
+    device.counters().textureBytes += texture.bytes_;
+    return texture;
+}
+
+core::Result<Texture> Texture::makeCube(Device& device, const lighting::Cubemap& map,
+                                        const char* label) {
+    LODESTAR_EXPECT(!map.empty(), "a cube texture takes a map with at least one level");
+    float largest = 0.0f;
+    for (int level = 0; level < map.levelCount(); ++level) {
+        for (const glm::vec4& texel : map.level(level)) {
+            largest = std::max({largest, texel.r, texel.g, texel.b});
+        }
+    }
+    Texture texture(device, GL_TEXTURE_CUBE_MAP);
+    texture.width_ = map.width();
+    texture.levelCount_ = map.levelCount();
+    texture.scale_ = largest > kLargestHalf ? std::exp2(std::ceil(std::log2(largest / kLargestHalf))) : 1.0f;
+    const bool half = texture.scale_ <= kLargestHalfScale;
+    texture.scale_ = half ? texture.scale_ : 1.0f;
+    const float inverse = 1.0f / texture.scale_;
+    glBindTexture(GL_TEXTURE_CUBE_MAP, texture.id_);
+    std::vector<glm::vec4> scaled;
+    for (int level = 0; level < map.levelCount(); ++level) {
+        const auto width = static_cast<std::size_t>(map.width(level));
+        const std::vector<glm::vec4>* texels = &map.level(level);
+        if (texture.scale_ != 1.0f) {
+            scaled = *texels;
+            for (glm::vec4& texel : scaled) {
+                texel = glm::vec4(glm::vec3(texel) * inverse, texel.a);
+            }
+            texels = &scaled;
+        }
+        for (std::size_t face = 0; face < 6; ++face) {
+            glTexImage2D(static_cast<GLenum>(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face), level,
+                         half ? GL_RGBA16F : GL_RGBA32F, static_cast<GLsizei>(width),
+                         static_cast<GLsizei>(width), 0, GL_RGBA, GL_FLOAT,
+                         texels->data() + face * width * width);
+            ++device.counters().uploads;
+        }
+        device.counters().uploadBytes += texels->size() * sizeof(glm::vec4);
+        device.counters().texelsWritten += texels->size();
+        texture.bytes_ += texels->size() * (half ? 8u : 16u);
+    }
+    if (auto allocated = checkAllocation(label); !allocated) {
+        return allocated.error();
+    }
+    glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAX_LEVEL, map.levelCount() - 1);
+    glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    for (GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
+        glTexParameteri(GL_TEXTURE_CUBE_MAP, wrap, GL_CLAMP_TO_EDGE);
+    }
+    setLabel(device, texture.id_, label);
+    device.counters().textureBytes += texture.bytes_;
+    return texture;
+}
+
+namespace {
+
+void allocateTarget(GLint format, GLenum layout, int width, int height) {
+    glTexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, layout, GL_FLOAT, nullptr);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+} // namespace
+
+core::Result<Texture> Texture::makeColorTarget(Device& device, int width, int height) {
+    Texture texture(device, GL_TEXTURE_2D);
+    texture.width_ = width;
+    glBindTexture(GL_TEXTURE_2D, texture.id_);
+    allocateTarget(GL_RGBA32F, GL_RGBA, width, height);
+    if (auto allocated = checkAllocation("frame colour"); !allocated) {
+        return allocated.error();
+    }
+    texture.bytes_ = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 16;
+    device.counters().textureBytes += texture.bytes_;
+    return texture;
+}
+
+core::Result<Texture> Texture::makeDepthTarget(Device& device, int width, int height) {
+    Texture texture(device, GL_TEXTURE_2D);
+    texture.width_ = width;
+    glBindTexture(GL_TEXTURE_2D, texture.id_);
+    allocateTarget(GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, width, height);
+    if (auto allocated = checkAllocation("frame depth"); !allocated) {
+        return allocated.error();
+    }
+    texture.bytes_ = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4;
+    device.counters().textureBytes += texture.bytes_;
+    return texture;
+}
+
+void Texture::bind(int unit) const {
+    glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
+    glBindTexture(target_, id_);
+}
+
+} // namespace lodestar::gl

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+//
+// Textures, move-only. A moved-from texture holds no GL object.
+#pragma once
+
+#include <cstddef>
+
+#include "core/image.h"
+#include "core/result.h"
+#include "gl/device.h"
+#include "lighting/cubemap.h"
+
+namespace lodestar::gl {
+
+enum class Wrap { Repeat, MirroredRepeat, ClampToEdge };
+
+/// How a 2-D texture is read.
+struct SamplerState {
+    Wrap wrapS = Wrap::Repeat;
+    Wrap wrapT = Wrap::Repeat;
+    bool magnifyLinear = true;
+    bool minifyLinear = true;
+    bool mipmapped = true;
+    bool mipLinear = true;
+};
+
+/// What 8-bit texels mean.
+enum class TexelEncoding { Linear, Srgb };
+
+class Texture {
+public:
+    Texture() = default;
+    Texture(Texture&& other) noexcept;
+    Texture& operator=(Texture&& other) noexcept;
+    ~Texture();
+
+    /// An 8-bit RGBA texture of an image with 4 channels in [0, 1], mipmapped as the sampler says.
+    [[nodiscard]] static core::Result<Texture> make2D(Device& device, const core::Image& image,
+                                                      TexelEncoding encoding,
+                                                      const SamplerState& sampler,
+                                                      const char* label);
+    /// A cube with all levels of the map, sampled seamlessly and trilinearly. Half floats with a
+    /// power-of-two scale where the largest value allows it, else floats: nothing is clamped.
+    [[nodiscard]] static core::Result<Texture> makeCube(Device& device, const lighting::Cubemap& map,
+                                                        const char* label);
+    /// A float colour target and a depth target, one level, not filtered.
+    [[nodiscard]] static core::Result<Texture> makeColorTarget(Device& device, int width, int height);
+    [[nodiscard]] static core::Result<Texture> makeDepthTarget(Device& device, int width, int height);
+
+    /// Takes over a texture made elsewhere. @param target a GL texture target
+    [[nodiscard]] static Texture adopt(Device& device, unsigned id, unsigned target);
+    /// Gives the GL object up; the caller deletes it.
+    [[nodiscard]] unsigned release();
+
+    [[nodiscard]] unsigned id() const { return id_; }
+    [[nodiscard]] explicit operator bool() const { return id_ != 0; }
+    [[nodiscard]] int width() const { return width_; }
+    [[nodiscard]] int levelCount() const { return levelCount_; }
+    /// What a fetched value is multiplied by to be radiance; 1 but for scaled cubes.
+    [[nodiscard]] float scale() const { return scale_; }
+
+    void bind(int unit) const;
+
+private:
+    Texture(Device& device, unsigned target);
+    void reset();
+
+    Device* device_ = nullptr;
+    unsigned id_ = 0;
+    unsigned target_ = 0;
+    int width_ = 0;
+    int levelCount_ = 1;
+    float scale_ = 1.0f;
+    std::size_t bytes_ = 0;
+};
+
+} // namespace lodestar::gl

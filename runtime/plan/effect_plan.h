@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+//
+// The plan of a frame: which effects run and which are skipped, each with its reason and its
+// expected cost. A pure function of its input; no GL.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lighting/environment.h"
+#include "lighting/estimator.h"
+
+namespace lodestar::plan {
+
+/// What a draw's shader must be able to do. Bits of a set.
+enum class Feature : std::uint32_t {
+    Normals = 1u << 0,
+    Tangents = 1u << 1,
+    VertexColors = 1u << 2,
+    BaseColorTexture = 1u << 3,
+    MetallicRoughnessTexture = 1u << 4,
+    NormalTexture = 1u << 5,
+    OcclusionTexture = 1u << 6,
+    EmissiveTexture = 1u << 7,
+    BlinnPhong = 1u << 8, ///< k_L, F0 and exponent given, not converted from metallic-roughness
+    ExponentTexture = 1u << 9,
+    AlphaMask = 1u << 10,
+    AlphaBlend = 1u << 11,
+    PunctualLights = 1u << 12,
+    Environment = 1u << 13,
+};
+
+using Features = std::uint32_t;
+
+[[nodiscard]] constexpr Features bit(Feature feature) { return static_cast<Features>(feature); }
+[[nodiscard]] constexpr bool has(Features set, Feature feature) { return (set & bit(feature)) != 0; }
+/// Lower-case names of the bits, in order, e.g. "normal-texture".
+[[nodiscard]] std::vector<std::string> featureNames(Features set);
+
+/// One drawable as the planner sees it.
+struct DrawView {
+    std::string subject; ///< "node/mesh" for people
+    Features features = 0;
+    bool visible = true;  ///< inside the view
+    bool diffuse = true;  ///< reflects diffusely anywhere
+    bool glossy = true;   ///< reflects glossily anywhere
+    bool blended = false;
+    float distance = 0.0f; ///< metres along the view, for the order of blended draws
+    int indexCount = 0;
+};
+
+struct EnvironmentView {
+    std::string source; ///< as the user named it
+    int width = 256;    ///< face width, texels
+    bool changed = true; ///< since the previous plan
+};
+
+/// Everything the plan depends on.
+struct PlanInput {
+    std::vector<DrawView> draws;
+    EnvironmentView environment;
+    int lightCount = 0;
+    lighting::Estimator specular = lighting::kDefaultSpecular;
+    lighting::Estimator diffuse = lighting::kDefaultDiffuse;
+    bool backdrop = true;
+    std::uint64_t pixels = 0;              ///< shaded in a frame
+    lighting::PreparedParts alreadyPrepared; ///< from earlier frames, of the same environment
+};
+
+enum class Decision { Run, Skip };
+
+/// Expected work, in the units of the counters.
+struct Cost {
+    std::uint64_t draws = 0;
+    std::uint64_t passes = 0;
+    std::uint64_t texelsWritten = 0;
+    std::uint64_t uploadBytes = 0;
+};
+
+struct Effect {
+    std::string effect;  ///< "environment-mips", "irradiance", "draws", "backdrop", ...
+    std::string subject; ///< what it acts on
+    Decision decision = Decision::Run;
+    std::string reason; ///< a sentence for people
+    Cost cost;
+};
+
+struct EffectPlan {
+    std::vector<Effect> effects;
+    lighting::PreparedParts prepare;   ///< parts to make now
+    std::vector<std::size_t> drawOrder; ///< indices into PlanInput::draws: opaque, then blended back to front
+    std::vector<Features> drawFeatures; ///< shader features, in drawOrder's order
+    bool backdrop = false;
+
+    /// Whether an effect of this name runs.
+    [[nodiscard]] bool runs(const std::string& effect) const;
+};
+
+/// Decides a frame. The same input gives the same plan.
+[[nodiscard]] EffectPlan plan(const PlanInput& input);
+
+} // namespace lodestar::plan

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "scene/camera.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace lodestar::scene {
+namespace {
+
+struct PlacedCamera {
+    const Node* node;
+    const io::GltfCamera* camera;
+};
+
+std::vector<PlacedCamera> placedCameras(const Scene& scene) {
+    std::vector<PlacedCamera> cameras;
+    for (const Node& node : scene.nodes) {
+        for (const Component& component : node.components) {
+            if (const auto* camera = std::get_if<CameraComponent>(&component)) {
+                cameras.push_back({&node, &camera->camera});
+            }
+        }
+    }
+    return cameras;
+}
+
+std::string nameOf(const PlacedCamera& placed) {
+    return placed.camera->name.empty() ? placed.node->name : placed.camera->name;
+}
+
+/// Depth planes that hold the scene's bounds as seen from the eye.
+glm::vec2 depthRange(const Scene& scene, const glm::mat4& cameraFromWorld) {
+    const Bounds bounds = scene.worldBounds();
+    const float radius = std::max(bounds.radius(), 1e-4f);
+    const glm::vec3 center = bounds.empty() ? glm::vec3(0.0f) : bounds.center();
+    const float depth = -glm::vec3(cameraFromWorld * glm::vec4(center, 1.0f)).z;
+    const float farPlane = std::max(depth + 1.01f * radius, 1e-3f);
+    return {std::max(depth - 1.01f * radius, farPlane * 1e-4f), farPlane};
+}
+
+View lookAt(const Scene& scene, const glm::vec3& eye, const glm::vec3& target, float verticalFov,
+            float aspect) {
+    glm::vec3 forward = target - eye;
+    const float distance = glm::length(forward);
+    forward = distance > 0.0f ? forward / distance : glm::vec3(0.0f, 0.0f, -1.0f);
+    const glm::vec3 up = std::abs(forward.y) < 0.999f ? glm::vec3(0.0f, 1.0f, 0.0f)
+                                                      : glm::vec3(0.0f, 0.0f, -forward.y);
+    View view;
+    view.position = eye;
+    view.cameraFromWorld = glm::lookAt(eye, eye + forward, up);
+    const glm::vec2 planes = depthRange(scene, view.cameraFromWorld);
+    view.clipFromCamera = glm::perspective(verticalFov, aspect, planes.x, planes.y);
+    return view;
+}
+
+/// Frames everything from the front right, a little above.
+View frame(const Scene& scene, float verticalFov, float aspect) {
+    const Bounds bounds = scene.worldBounds();
+    const glm::vec3 center = bounds.empty() ? glm::vec3(0.0f) : bounds.center();
+    const float radius = bounds.empty() ? 1.0f : std::max(bounds.radius(), 1e-4f);
+    const float halfFov = 0.5f * std::min(verticalFov, 2.0f * std::atan(std::tan(0.5f * verticalFov) * aspect));
+    const glm::vec3 direction = glm::normalize(glm::vec3(0.45f, 0.3f, 1.0f));
+    return lookAt(scene, center + direction * (radius / std::sin(halfFov)), center, verticalFov, aspect);
+}
+
+View fromCamera(const Scene& scene, const PlacedCamera& placed, float aspect,
+                std::optional<float> verticalFov) {
+    const io::GltfCamera& camera = *placed.camera;
+    // A camera's pose is its node's without scale.
+    const glm::mat4& world = placed.node->worldFromNode;
+    const auto axis = [&](int column, const glm::vec3& fallback) {
+        const glm::vec3 v(world[column]);
+        const float length = glm::length(v);
+        return length > 1e-12f ? v / length : fallback;
+    };
+    const glm::vec3 back = axis(2, glm::vec3(0.0f, 0.0f, 1.0f));
+    const glm::vec3 up = axis(1, glm::vec3(0.0f, 1.0f, 0.0f));
+    View view;
+    view.position = glm::vec3(world[3]);
+    view.towardsViewer = back;
+    view.cameraFromWorld = glm::lookAt(view.position, view.position - back, up);
+    view.perspective = camera.perspective;
+    if (camera.perspective) {
+        const float farPlane = std::isfinite(camera.farPlane)
+                                   ? camera.farPlane
+                                   : std::max(depthRange(scene, view.cameraFromWorld).y,
+                                              camera.nearPlane * 2.0f);
+        view.clipFromCamera =
+            glm::perspective(verticalFov.value_or(camera.verticalFov), aspect, camera.nearPlane, farPlane);
+    } else {
+        // The magnified width is kept, as a perspective keeps its vertical field of view.
+        const float x = std::max(camera.xMagnification, camera.yMagnification * aspect);
+        view.clipFromCamera =
+            glm::ortho(-x, x, -x / aspect, x / aspect, camera.nearPlane, camera.farPlane);
+    }
+    return view;
+}
+
+} // namespace
+
+std::vector<std::string> cameraNames(const Scene& scene) {
+    std::vector<std::string> names;
+    for (const PlacedCamera& placed : placedCameras(scene)) {
+        names.push_back(nameOf(placed));
+    }
+    return names;
+}
+
+core::Result<View> chooseView(const Scene& scene, const CameraRequest& request, float aspect) {
+    const float fov = request.verticalFov.value_or(kDefaultVerticalFov);
+    if (request.eye || request.target) {
+        const Bounds bounds = scene.worldBounds();
+        const glm::vec3 center = bounds.empty() ? glm::vec3(0.0f) : bounds.center();
+        const glm::vec3 target = request.target.value_or(center);
+        const glm::vec3 eye = request.eye.value_or(
+            target + glm::normalize(glm::vec3(0.45f, 0.3f, 1.0f)) *
+                         (std::max(bounds.radius(), 1e-4f) / std::sin(0.5f * fov)));
+        return lookAt(scene, eye, target, fov, aspect);
+    }
+    const std::vector<PlacedCamera> cameras = placedCameras(scene);
+    if (request.name.empty()) {
+        return cameras.empty() ? frame(scene, fov, aspect)
+                               : fromCamera(scene, cameras.front(), aspect, request.verticalFov);
+    }
+    for (const PlacedCamera& placed : cameras) {
+        if (nameOf(placed) == request.name || placed.node->name == request.name) {
+            return fromCamera(scene, placed, aspect, request.verticalFov);
+        }
+    }
+    std::size_t number = 0;
+    const char* end = request.name.data() + request.name.size();
+    const auto [stop, error] = std::from_chars(request.name.data(), end, number);
+    if (error == std::errc{} && stop == end && number < cameras.size()) {
+        return fromCamera(scene, cameras[number], aspect, request.verticalFov);
+    }
+    std::string known;
+    for (const PlacedCamera& placed : cameras) {
+        known += (known.empty() ? "" : ", ") + nameOf(placed);
+    }
+    return core::Error{core::ErrorCode::Usage,
+                       "no camera '" + request.name + "'; the scene has " +
+                           (known.empty() ? "none" : std::to_string(cameras.size()) + ": " + known),
+                       {},
+                       "--camera"};
+}
+
+bool mayBeSeen(const Bounds& worldBounds, const glm::mat4& clipFromWorld) {
+    if (worldBounds.empty()) {
+        return false;
+    }
+    int outside[6] = {};
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec4 clip =
+            clipFromWorld * glm::vec4((corner & 1) != 0 ? worldBounds.high.x : worldBounds.low.x,
+                                      (corner & 2) != 0 ? worldBounds.high.y : worldBounds.low.y,
+                                      (corner & 4) != 0 ? worldBounds.high.z : worldBounds.low.z, 1.0f);
+        for (int axis = 0; axis < 3; ++axis) {
+            outside[2 * axis] += clip[axis] < -clip.w ? 1 : 0;
+            outside[2 * axis + 1] += clip[axis] > clip.w ? 1 : 0;
+        }
+    }
+    return std::none_of(std::begin(outside), std::end(outside), [](int count) { return count == 8; });
+}
+
+} // namespace lodestar::scene

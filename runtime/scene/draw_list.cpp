@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "scene/draw_list.h"
+
+#include <algorithm>
+
+namespace lodestar::scene {
+namespace {
+
+using plan::bit;
+using plan::Feature;
+
+bool isBlack(const glm::vec3& color) { return color.r <= 0.0f && color.g <= 0.0f && color.b <= 0.0f; }
+
+/// Which of the two terms a material reflects anywhere on its surface.
+void setTerms(plan::DrawView& draw, const io::GltfMaterial& material, const RenderSettings& settings) {
+    if (settings.materialOverride) {
+        const MaterialOverride& values = *settings.materialOverride;
+        draw.diffuse = !isBlack(values.diffuse);
+        draw.glossy = !isBlack(values.f0) || values.exponent > 0.0f;
+    } else if (material.blinnPhong) {
+        const io::GltfBlinnPhong& given = *material.blinnPhong;
+        draw.diffuse = !given.diffuse || !isBlack(*given.diffuse);
+        draw.glossy = !given.f0 || !isBlack(*given.f0) || given.exponent.value_or(1.0f) > 0.0f ||
+                      given.exponentTexture.texture != io::kNone;
+    } else {
+        const bool textured = material.metallicRoughnessTexture.texture != io::kNone;
+        draw.diffuse = (material.metallic < 1.0f || textured) && !isBlack(glm::vec3(material.baseColor));
+        draw.glossy = true; // F0 is at least 0.04
+    }
+}
+
+plan::DrawView drawView(const Scene& scene, const DrawItem& item, const View& view,
+                        const glm::mat4& clipFromWorld, const RenderSettings& settings) {
+    const Node& node = scene.nodes[static_cast<std::size_t>(item.node)];
+    const auto mesh = static_cast<std::size_t>(item.mesh);
+    const auto part = static_cast<std::size_t>(item.primitive);
+    const io::GltfPrimitive& primitive = scene.meshes[mesh].primitives[part];
+    const Bounds bounds = transformed(scene.primitiveBounds[mesh][part], node.worldFromNode);
+    plan::DrawView draw;
+    draw.subject = (node.name.empty() ? "node " + std::to_string(item.node) : node.name) + "/" +
+                   std::to_string(item.primitive);
+    draw.features = featuresOf(scene, primitive, settings);
+    draw.visible = mayBeSeen(bounds, clipFromWorld);
+    draw.blended = plan::has(draw.features, Feature::AlphaBlend);
+    draw.indexCount = static_cast<int>(primitive.indices.size());
+    if (!bounds.empty()) {
+        draw.distance = -glm::vec3(view.cameraFromWorld * glm::vec4(bounds.center(), 1.0f)).z;
+    }
+    setTerms(draw, materialOf(scene, primitive), settings);
+    return draw;
+}
+
+} // namespace
+
+std::vector<DrawItem> drawItems(const Scene& scene) {
+    std::vector<DrawItem> items;
+    for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+        for (const Component& component : scene.nodes[n].components) {
+            if (const auto* mesh = std::get_if<MeshComponent>(&component)) {
+                const auto& parts = scene.meshes[static_cast<std::size_t>(mesh->mesh)].primitives;
+                for (std::size_t p = 0; p < parts.size(); ++p) {
+                    items.push_back({static_cast<int>(n), mesh->mesh, static_cast<int>(p)});
+                }
+            }
+        }
+    }
+    return items;
+}
+
+std::vector<PlacedLight> placedLights(const Scene& scene) {
+    std::vector<PlacedLight> lights;
+    for (const Node& node : scene.nodes) {
+        for (const Component& component : node.components) {
+            if (const auto* light = std::get_if<LightComponent>(&component)) {
+                lights.push_back({&node, &light->light});
+            }
+        }
+    }
+    return lights;
+}
+
+const io::GltfMaterial& materialOf(const Scene& scene, const io::GltfPrimitive& primitive) {
+    static const io::GltfMaterial defaultMaterial{};
+    return primitive.material == io::kNone
+               ? defaultMaterial
+               : scene.materials[static_cast<std::size_t>(primitive.material)];
+}
+
+plan::Features featuresOf(const Scene& scene, const io::GltfPrimitive& primitive,
+                          const RenderSettings& settings) {
+    const io::GltfMaterial& material = materialOf(scene, primitive);
+    plan::Features features = 0;
+    const auto add = [&](Feature feature, bool wanted) { features |= wanted ? bit(feature) : 0u; };
+    const auto textured = [](const io::GltfTextureRef& reference) { return reference.texture != io::kNone; };
+    const bool normals = !primitive.normals.empty();
+    add(Feature::Normals, normals);
+    add(Feature::NormalTexture, normals && textured(material.normalTexture) &&
+                                    !primitive.uvs[material.normalTexture.uvSet > 0 ? 1 : 0].empty());
+    add(Feature::Tangents, plan::has(features, Feature::NormalTexture) && !primitive.tangents.empty());
+    if (settings.materialOverride) {
+        return features | bit(Feature::BlinnPhong);
+    }
+    add(Feature::VertexColors, !primitive.colors.empty());
+    add(Feature::BaseColorTexture, textured(material.baseColorTexture));
+    add(Feature::OcclusionTexture, textured(material.occlusionTexture));
+    add(Feature::EmissiveTexture, textured(material.emissiveTexture));
+    add(Feature::AlphaMask, material.alphaMode == io::AlphaMode::Mask);
+    add(Feature::AlphaBlend, material.alphaMode == io::AlphaMode::Blend);
+    add(Feature::BlinnPhong, material.blinnPhong.has_value());
+    add(Feature::ExponentTexture,
+        material.blinnPhong && textured(material.blinnPhong->exponentTexture));
+    add(Feature::MetallicRoughnessTexture,
+        !material.blinnPhong && textured(material.metallicRoughnessTexture));
+    return features;
+}
+
+plan::PlanInput planInput(const Scene& scene, const View& view, const RenderSettings& settings,
+                          const plan::EnvironmentView& environment) {
+    plan::PlanInput input;
+    const glm::mat4 clipFromWorld = view.clipFromWorld();
+    for (const DrawItem& item : drawItems(scene)) {
+        input.draws.push_back(drawView(scene, item, view, clipFromWorld, settings));
+    }
+    input.environment = environment;
+    input.lightCount = static_cast<int>(placedLights(scene).size());
+    input.specular = settings.specular;
+    input.diffuse = settings.diffuse;
+    input.backdrop = settings.backdrop;
+    input.pixels = static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height) *
+                   static_cast<std::uint64_t>(settings.samplesPerSide * settings.samplesPerSide);
+    return input;
+}
+
+} // namespace lodestar::scene

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+//
+// The drawables of a scene in a fixed order, and what their shaders must do.
+#pragma once
+
+#include <vector>
+
+#include "plan/effect_plan.h"
+#include "scene/renderer.h"
+#include "scene/scene.h"
+
+namespace lodestar::scene {
+
+/// One primitive of a mesh at a node.
+struct DrawItem {
+    int node = 0;
+    int mesh = 0;
+    int primitive = 0;
+};
+
+/// Every drawable, in node order: the order of PlanInput::draws.
+[[nodiscard]] std::vector<DrawItem> drawItems(const Scene& scene);
+
+/// The lights of a scene, at most the blocks' maximum; the rest is counted in `left`.
+struct PlacedLight {
+    const Node* node;
+    const io::GltfLight* light;
+};
+[[nodiscard]] std::vector<PlacedLight> placedLights(const Scene& scene);
+
+/// The material of a primitive: the file's, or glTF's default.
+[[nodiscard]] const io::GltfMaterial& materialOf(const Scene& scene, const io::GltfPrimitive& primitive);
+
+/// What a primitive's shader must do under the settings.
+[[nodiscard]] plan::Features featuresOf(const Scene& scene, const io::GltfPrimitive& primitive,
+                                        const RenderSettings& settings);
+
+} // namespace lodestar::scene

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "scene/gpu_scene.h"
+
+#include <span>
+
+namespace lodestar::scene {
+namespace {
+
+struct TextureSlot {
+    TextureUnit unit;
+    const io::GltfTextureRef* reference;
+    gl::TexelEncoding encoding;
+};
+
+std::vector<TextureSlot> slotsOf(const io::GltfMaterial& material) {
+    using gl::TexelEncoding;
+    std::vector<TextureSlot> slots = {
+        {kBaseColorUnit, &material.baseColorTexture, TexelEncoding::Srgb},
+        {kMetallicRoughnessUnit, &material.metallicRoughnessTexture, TexelEncoding::Linear},
+        {kNormalUnit, &material.normalTexture, TexelEncoding::Linear},
+        {kOcclusionUnit, &material.occlusionTexture, TexelEncoding::Linear},
+        {kEmissiveUnit, &material.emissiveTexture, TexelEncoding::Srgb},
+    };
+    if (material.blinnPhong) {
+        slots.push_back({kExponentUnit, &material.blinnPhong->exponentTexture, TexelEncoding::Linear});
+    }
+    return slots;
+}
+
+gl::Wrap wrapOf(io::Wrap wrap) {
+    switch (wrap) {
+    case io::Wrap::MirroredRepeat: return gl::Wrap::MirroredRepeat;
+    case io::Wrap::ClampToEdge: return gl::Wrap::ClampToEdge;
+    case io::Wrap::Repeat: break;
+    }
+    return gl::Wrap::Repeat;
+}
+
+gl::SamplerState samplerOf(const io::GltfTexture& texture) {
+    return {wrapOf(texture.wrapS),
+            wrapOf(texture.wrapT),
+            texture.magnification == io::Filter::Linear,
+            texture.minification == io::Filter::Linear,
+            texture.mip != io::MipFilter::None,
+            texture.mip == io::MipFilter::Linear};
+}
+
+template <class T>
+void addAttribute(gl::Device& device, GpuPrimitive& target, gl::Attribute attribute,
+                  const std::vector<T>& values) {
+    if (!values.empty()) {
+        gl::Buffer& buffer = target.buffers.emplace_back(device, gl::BufferKind::Vertex,
+                                                         std::as_bytes(std::span(values)));
+        target.vertices.setAttribute(attribute, buffer, static_cast<int>(sizeof(T) / sizeof(float)));
+    }
+}
+
+GpuPrimitive upload(gl::Device& device, const io::GltfPrimitive& primitive) {
+    GpuPrimitive result;
+    result.vertices = gl::VertexArray(device);
+    addAttribute(device, result, gl::Attribute::Position, primitive.positions);
+    addAttribute(device, result, gl::Attribute::Normal, primitive.normals);
+    addAttribute(device, result, gl::Attribute::Tangent, primitive.tangents);
+    addAttribute(device, result, gl::Attribute::Uv0, primitive.uvs[0]);
+    addAttribute(device, result, gl::Attribute::Uv1, primitive.uvs[1]);
+    addAttribute(device, result, gl::Attribute::Color, primitive.colors);
+    const gl::Buffer& indices = result.buffers.emplace_back(
+        device, gl::BufferKind::Index, std::as_bytes(std::span(primitive.indices)));
+    result.vertices.setIndices(indices);
+    result.indexCount = static_cast<int>(primitive.indices.size());
+    result.mode = primitive.topology == io::Topology::Points  ? gl::DrawMode::Points
+                  : primitive.topology == io::Topology::Lines ? gl::DrawMode::Lines
+                                                              : gl::DrawMode::Triangles;
+    return result;
+}
+
+} // namespace
+
+core::Result<GpuScene> GpuScene::make(gl::Device& device, const Scene& scene) {
+    GpuScene result;
+    for (const io::GltfMesh& mesh : scene.meshes) {
+        std::vector<GpuPrimitive>& parts = result.meshes_.emplace_back();
+        for (const io::GltfPrimitive& primitive : mesh.primitives) {
+            parts.push_back(upload(device, primitive));
+        }
+    }
+    for (const io::GltfMaterial& material : scene.materials) {
+        for (const TextureSlot& slot : slotsOf(material)) {
+            if (auto added = result.addTexture(device, scene, *slot.reference, slot.encoding); !added) {
+                return added.error();
+            }
+        }
+    }
+    return result;
+}
+
+core::Result<void> GpuScene::addTexture(gl::Device& device, const Scene& scene,
+                                        const io::GltfTextureRef& reference,
+                                        gl::TexelEncoding encoding) {
+    if (reference.texture == io::kNone || textures_.count({reference.texture, encoding}) > 0) {
+        return {};
+    }
+    const io::GltfTexture& texture = scene.textures[static_cast<std::size_t>(reference.texture)];
+    core::Image white(1, 1, 4);
+    white.pixels().assign(4, 1.0f);
+    const core::Image& image = texture.image == io::kNone
+                                   ? white
+                                   : scene.images[static_cast<std::size_t>(texture.image)];
+    const std::string label = "texture " + std::to_string(reference.texture);
+    auto made = gl::Texture::make2D(device, image, encoding, samplerOf(texture), label.c_str());
+    if (!made) {
+        return made.error();
+    }
+    textures_.emplace(std::pair(reference.texture, encoding), std::move(*made));
+    return {};
+}
+
+void GpuScene::bindTextures(const io::GltfMaterial& material) const {
+    for (const TextureSlot& slot : slotsOf(material)) {
+        if (slot.reference->texture != io::kNone) {
+            textures_.at({slot.reference->texture, slot.encoding}).bind(slot.unit);
+        }
+    }
+}
+
+blocks::LodestarMaterial materialBlock(const io::GltfMaterial& material,
+                                       const std::optional<MaterialOverride>& values) {
+    blocks::LodestarMaterial block{};
+    block.baseColor = values ? glm::vec4(1.0f) : material.baseColor;
+    block.emissive = glm::vec4(values ? glm::vec3(0.0f) : material.emissive, material.normalScale);
+    block.surface = {material.metallic, material.roughness, material.occlusionStrength,
+                     material.alphaCutoff};
+    block.uvSets = {material.baseColorTexture.uvSet, material.metallicRoughnessTexture.uvSet,
+                    material.normalTexture.uvSet, material.occlusionTexture.uvSet};
+    block.uvSets2 = {material.emissiveTexture.uvSet, 0.0f, 0.0f, 0.0f};
+    if (values) {
+        block.diffuse = {values->diffuse, values->exponent};
+        block.f0 = {values->f0, 1.0f};
+    } else if (material.blinnPhong) {
+        const io::GltfBlinnPhong& given = *material.blinnPhong;
+        block.diffuse = {given.diffuse.value_or(glm::vec3(material.baseColor)),
+                         given.exponent.value_or(0.0f)};
+        block.f0 = {given.f0.value_or(glm::vec3(0.04f)), given.exponentScale};
+        block.uvSets2.y = static_cast<float>(given.exponentTexture.uvSet);
+        block.uvSets2.z = given.exponentEncoding == io::ExponentEncoding::Log2 ? 1.0f : 0.0f;
+        // The shader multiplies k_L by the base colour, whose factor k_L replaces.
+        block.baseColor = glm::vec4(glm::vec3(1.0f), material.baseColor.a);
+    }
+    return block;
+}
+
+} // namespace lodestar::scene

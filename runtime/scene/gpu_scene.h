@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+//
+// A scene's meshes, materials and textures as GL objects.
+#pragma once
+
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/texture.h"
+#include "host/blocks.glsl"
+#include "scene/renderer.h"
+#include "scene/scene.h"
+
+namespace lodestar::scene {
+
+struct GpuPrimitive {
+    gl::VertexArray vertices;
+    std::vector<gl::Buffer> buffers;
+    gl::DrawMode mode = gl::DrawMode::Triangles;
+    int indexCount = 0;
+};
+
+/// Texture units of the renderer, shared with its programs' samplers.
+enum TextureUnit : int {
+    kBaseColorUnit,
+    kMetallicRoughnessUnit,
+    kNormalUnit,
+    kOcclusionUnit,
+    kEmissiveUnit,
+    kExponentUnit,
+    kMaterialUnitCount,
+    kEnvironmentUnit = kMaterialUnitCount,
+    kIrradianceUnit,
+};
+
+/// The names of the samplers, by unit.
+inline constexpr std::array<const char*, 8> kSamplerNames = {
+    "uBaseColorTexture", "uMetallicRoughnessTexture", "uNormalTexture", "uOcclusionTexture",
+    "uEmissiveTexture",  "uExponentTexture",          "uEnvironment",   "uIrradiance"};
+
+class GpuScene {
+public:
+    [[nodiscard]] static core::Result<GpuScene> make(gl::Device& device, const Scene& scene);
+
+    [[nodiscard]] const GpuPrimitive& primitive(int mesh, int part) const {
+        return meshes_[static_cast<std::size_t>(mesh)][static_cast<std::size_t>(part)];
+    }
+    /// Binds the textures of a material to the material units; unused units are left as they are.
+    void bindTextures(const io::GltfMaterial& material) const;
+
+private:
+    [[nodiscard]] core::Result<void> addTexture(gl::Device& device, const Scene& scene,
+                                                const io::GltfTextureRef& reference,
+                                                gl::TexelEncoding encoding);
+
+    std::vector<std::vector<GpuPrimitive>> meshes_;
+    std::map<std::pair<int, gl::TexelEncoding>, gl::Texture> textures_;
+};
+
+/// The uniform block of a material, or of the override.
+[[nodiscard]] blocks::LodestarMaterial materialBlock(const io::GltfMaterial& material,
+                                                     const std::optional<MaterialOverride>& values);
+
+} // namespace lodestar::scene

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+//
+// The built-in forward renderer: plans a frame, makes ready what the plan says, draws, reads back.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/framebuffer.h"
+#include "gl/program.h"
+#include "gl/texture.h"
+#include "lighting/environment.h"
+#include "lighting/estimator.h"
+#include "plan/effect_plan.h"
+#include "scene/camera.h"
+#include "scene/scene.h"
+
+namespace lodestar::scene {
+
+/// One material for every draw, for furnaces and comparisons.
+struct MaterialOverride {
+    glm::vec3 diffuse{1.0f};
+    glm::vec3 f0{0.0f};
+    float exponent = 0.0f;
+};
+
+struct RenderSettings {
+    int width = 960;
+    int height = 640;
+    int samplesPerSide = 1; ///< supersampling: samplesPerSide^2 samples a pixel
+    lighting::Estimator specular = lighting::kDefaultSpecular;
+    lighting::Estimator diffuse = lighting::kDefaultDiffuse;
+    bool backdrop = true;
+    bool seamless = true; ///< false filters each cube face on its own, for comparison only
+    std::optional<MaterialOverride> materialOverride;
+};
+
+/// A frame and what it took.
+struct Frame {
+    core::Image radiance; ///< 4 channels, linear, premultiplied by coverage; every value finite
+    plan::EffectPlan plan;
+    gl::WorkCounters counters;             ///< of this frame
+    std::map<std::string, double> timesMs; ///< by step
+    std::uint64_t repairedPixels = 0;      ///< pixels that were not finite and are now 0
+};
+
+/// What the planner is told of a scene seen through a view.
+[[nodiscard]] plan::PlanInput planInput(const Scene& scene, const View& view,
+                                        const RenderSettings& settings,
+                                        const plan::EnvironmentView& environment);
+
+/// Draws one scene under one environment. The scene must outlive the renderer unchanged but for
+/// node transforms.
+class Renderer {
+public:
+    /// Uploads what the scene needs. @errors NoOpenGl if the driver has no memory for it
+    [[nodiscard]] static core::Result<std::unique_ptr<Renderer>> make(gl::Device& device,
+                                                                      const Scene& scene);
+    ~Renderer();
+
+    /// Sets the distant environment. @param source its name, for the plan  @param base level 0
+    void setEnvironment(std::string source, lighting::Cubemap base);
+
+    /// @errors NoOpenGl, Internal (a shader that the driver refuses)
+    [[nodiscard]] core::Result<Frame> render(const View& view, const RenderSettings& settings);
+
+private:
+    struct State;
+    explicit Renderer(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+} // namespace lodestar::scene

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+//
+// The built-in renderer's uniform blocks, defined once: std140 in GLSL, plain structs in C++.
+// Only vec4 and mat4 members, so that both layouts are the same; a test asks the driver.
+#ifndef LODESTAR_HOST_BLOCKS_GLSL
+#define LODESTAR_HOST_BLOCKS_GLSL
+
+#ifdef __cplusplus
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+#define LODESTAR_BLOCK(name) struct name {
+#define LODESTAR_BLOCK_END(name) };
+namespace lodestar::scene::blocks {
+using glm::mat4;
+using glm::vec4;
+#else
+#define LODESTAR_BLOCK(name) layout(std140) uniform name {
+#define LODESTAR_BLOCK_END(name) };
+#endif
+
+#define LODESTAR_MAX_LIGHTS 16
+
+LODESTAR_BLOCK(LodestarFrame)
+    mat4 clipFromWorld;
+    mat4 worldFromClip;
+    vec4 cameraPosition;    ///< w: 1 perspective; 0 orthographic, then xyz points towards the viewer
+    vec4 environmentCube;   ///< face width, last level, least level (bias), radiance scale
+    vec4 irradianceCube;    ///< face width, last level, least level (bias), radiance scale
+    vec4 sh9[9];            ///< irradiance over pi
+    vec4 lightCount;        ///< x: how many of the lights are used
+    vec4 lightPosition[LODESTAR_MAX_LIGHTS];  ///< xyz position, w 1; or direction to the light, w 0
+    vec4 lightColor[LODESTAR_MAX_LIGHTS];     ///< rgb irradiance or radiant intensity, w 1/range^2
+    vec4 lightDirection[LODESTAR_MAX_LIGHTS]; ///< spot: unit, along which it shines
+    vec4 lightCone[LODESTAR_MAX_LIGHTS];      ///< spot: x scale, y offset of the cosine
+LODESTAR_BLOCK_END(LodestarFrame)
+
+LODESTAR_BLOCK(LodestarDraw)
+    mat4 worldFromModel;
+    mat4 normalFromModel; ///< inverse transpose of its 3x3 part
+LODESTAR_BLOCK_END(LodestarDraw)
+
+LODESTAR_BLOCK(LodestarMaterial)
+    vec4 baseColor;
+    vec4 emissive; ///< rgb, w normal-map scale
+    vec4 surface;  ///< metallic, roughness, occlusion strength, alpha cutoff
+    vec4 diffuse;  ///< k_L rgb, w Blinn-Phong exponent
+    vec4 f0;       ///< F0 rgb, w scale of the exponent texture
+    vec4 uvSets;   ///< base colour, metallic-roughness, normal, occlusion: which UV set, 0 or 1
+    vec4 uvSets2;  ///< emissive, exponent, 1 if the exponent texture holds log2(s + 1), unused
+LODESTAR_BLOCK_END(LodestarMaterial)
+
+#ifdef __cplusplus
+} // namespace lodestar::scene::blocks
+#endif
+#undef LODESTAR_BLOCK
+#undef LODESTAR_BLOCK_END
+
+#endif

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+//
+// The built-in renderer's answers to the hooks of lodestar/environment.glsl.
+// LODESTAR_DIFFUSE chooses how irradiance is got: 0 irradiance cube, 1 sh9, 2 lowest mip, 3 bias.
+#ifndef LODESTAR_DIFFUSE
+#define LODESTAR_DIFFUSE 0
+#endif
+
+uniform samplerCube uEnvironment;
+uniform samplerCube uIrradiance;
+
+vec4 lodestar_host_cube(int slot, vec3 direction, float level) {
+    vec4 texel = textureLod(uEnvironment, direction, level);
+    return vec4(texel.rgb * environmentCube.w, texel.a);
+}
+
+vec3 lodestar_host_irradiance(int slot, vec3 normal) {
+#if LODESTAR_DIFFUSE == 1
+    return lodestar_sh9(sh9[0].rgb, sh9[1].rgb, sh9[2].rgb, sh9[3].rgb, sh9[4].rgb, sh9[5].rgb,
+                        sh9[6].rgb, sh9[7].rgb, sh9[8].rgb, normal);
+#elif LODESTAR_DIFFUSE == 2
+    return textureLod(uIrradiance, normal, irradianceCube.y).rgb * irradianceCube.w;
+#elif LODESTAR_DIFFUSE == 3
+    float footprint = lodestar_footprintLevel(normal, dFdx(normal), dFdy(normal), irradianceCube.x);
+    float level = lodestar_raiseLevel(min(irradianceCube.z, irradianceCube.y), footprint, irradianceCube.y);
+    return textureLod(uIrradiance, normal, level).rgb * irradianceCube.w;
+#else
+    return textureLod(uIrradiance, normal, 0.0).rgb * irradianceCube.w;
+#endif
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "host/blocks.glsl"
+#include "lodestar/sh9.glsl"
+#include "lodestar/environment.glsl"
+#include "host/hooks.glsl"
+
+in vec3 vPosition;
+in vec3 vNormal;
+in vec4 vTangent;
+in vec2 vUv0;
+in vec2 vUv1;
+in vec4 vColor;
+in float vLeastLevel;
+
+layout(location = 0) out vec4 oRadiance; // premultiplied by coverage
+
+#include "host/material.glsl"
+
+#if LODESTAR_PUNCTUAL_LIGHTS
+/// KHR_lights_punctual: 1/d^2 with its smooth end at the range, and the spot's cone.
+vec3 punctualLights(LodestarSurface here) {
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < int(lightCount.x); ++i) {
+        vec3 toLight = lightPosition[i].xyz - lightPosition[i].w * vPosition;
+        float distanceSquared = max(dot(toLight, toLight), 1e-8);
+        vec3 l = lodestar_safeNormalize(toLight, here.normal);
+        vec3 light = lightColor[i].rgb;
+        if (lightPosition[i].w > 0.5) {
+            float ratio = distanceSquared * lightColor[i].w;
+            float window = clamp(1.0 - ratio * ratio, 0.0, 1.0);
+            float cone = clamp(dot(lightDirection[i].xyz, -l) * lightCone[i].x + lightCone[i].y, 0.0, 1.0);
+            light *= window * cone * cone / distanceSquared;
+        }
+        sum += light * lodestar_directReflectance(here.normal, here.view, l, here.diffuse, here.f0,
+                                                  here.exponent);
+    }
+    return sum;
+}
+#endif
+
+void main() {
+    vec4 color = baseColorHere();
+#if LODESTAR_ALPHA_MASK
+    if (color.a < surface.w) {
+        discard;
+    }
+#endif
+#if !LODESTAR_ALPHA_BLEND
+    color.a = 1.0;
+#endif
+    vec3 view = lodestar_safeNormalize(cameraPosition.xyz - cameraPosition.w * vPosition, vec3(0.0, 0.0, 1.0));
+    LodestarSurface here = surfaceHere(view, color);
+    vec3 radiance = emissiveHere();
+#if LODESTAR_ENVIRONMENT
+    LodestarCube cube;
+    cube.slot = 0;
+    cube.width = environmentCube.x;
+    cube.maxLevel = environmentCube.y;
+#if LODESTAR_BIAS_VERTEX
+    cube.leastLevel = vLeastLevel;
+#else
+    cube.leastLevel = environmentCube.z;
+#endif
+    vec3 reflection = 2.0 * dot(here.normal, view) * here.normal - view;
+    radiance += lodestar_environment(cube, here, dFdx(reflection), dFdy(reflection));
+#endif
+#if LODESTAR_PUNCTUAL_LIGHTS
+    radiance += punctualLights(here);
+#endif
+    oRadiance = vec4(radiance * color.a, color.a);
+}
