@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+//
+// The numbers are chosen by eye and by energy, not measured: on a horizontal surface the sky gives
+// an irradiance of about 1 and the sun, at normal incidence, 3, so that a white surface in the sun
+// has a radiance near 0.9 and exposure 0 shows it just below the shoulder of the filmic curve.
+#include "lighting/clear_sky.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+namespace lodestar::lighting {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kSunElevation = 40.0 * kPi / 180.0;
+constexpr double kSunRadius = 0.27 * kPi / 180.0;
+
+// Irradiance of the sun at normal incidence: luminance 3, warm.
+const glm::dvec3 kSunIrradiance{3.22, 2.99, 2.50};
+const glm::dvec3 kZenith{0.060, 0.150, 0.420};
+const glm::dvec3 kHorizonNearSun{1.02, 0.94, 0.80};
+const glm::dvec3 kHorizonAway{0.66, 0.74, 0.82};
+const glm::dvec3 kGroundReflectance{0.30, 0.27, 0.235};
+
+/// max(c, 0)^s
+double lobe(double c, double s) {
+    return c > 0.0 ? std::exp(s * std::log(c)) : 0.0;
+}
+
+glm::dvec3 horizonColour(double cosineToSun) {
+    const double t = 0.5 + 0.5 * cosineToSun;
+    return kHorizonAway * (1.0 - t) + kHorizonNearSun * t;
+}
+
+/// Light scattered forward about the sun: a wide warm glow, a halo, and the aureole next to the
+/// disc.
+glm::dvec3 glow(double cosineToSun) {
+    return glm::dvec3(0.34, 0.30, 0.24) * lobe(cosineToSun, 6.0) +
+           glm::dvec3(0.80, 0.72, 0.58) * lobe(cosineToSun, 60.0) +
+           glm::dvec3(3.2, 3.0, 2.5) * lobe(cosineToSun, 900.0) +
+           glm::dvec3(40.0, 37.0, 31.0) * lobe(cosineToSun, 12000.0);
+}
+
+glm::dvec3 skyRadiance(double height, double cosineToSun) {
+    // A deep zenith that lightens towards the horizon, where the path through the air is longest;
+    // molecules scatter as 1 + cos^2: darkest at right angles to the sun.
+    const double low = 1.0 - height;
+    const double haze = 0.45 * low * low * low + 0.55 * std::exp(-9.0 * height);
+    const double molecules = 0.85 + 0.30 * cosineToSun * cosineToSun;
+    return kZenith * (molecules * (1.0 - haze)) + horizonColour(cosineToSun) * haze +
+           glow(cosineToSun);
+}
+
+/// Irradiance of the sky on the ground, by the midpoint rule in cos^2 of the polar angle and
+/// azimuth.
+glm::dvec3 skyIrradiance() {
+    constexpr int kRows = 256;
+    constexpr int kColumns = 512;
+    const glm::dvec3 sun = clearSkySunDirection();
+    glm::dvec3 sum(0.0);
+    for (int i = 0; i < kRows; ++i) {
+        const double height = std::sqrt((i + 0.5) / kRows);
+        const double horizontal = std::sqrt(1.0 - height * height);
+        for (int k = 0; k < kColumns; ++k) {
+            const double azimuth = 2.0 * kPi * (k + 0.5) / kColumns;
+            const glm::dvec3 d(horizontal * std::cos(azimuth), height,
+                               horizontal * std::sin(azimuth));
+            sum += skyRadiance(height, glm::dot(d, sun));
+        }
+    }
+    return sum * (kPi / (kRows * kColumns));
+}
+
+/// Radiance of the ground: lit by the sun and the sky above, reflecting evenly.
+const glm::dvec3& groundRadiance() {
+    static const glm::dvec3 radiance =
+        kGroundReflectance * (kSunIrradiance * std::sin(kSunElevation) + skyIrradiance()) / kPi;
+    return radiance;
+}
+
+} // namespace
+
+glm::dvec3 clearSkySunDirection() {
+    const double side = std::cos(kSunElevation) / std::numbers::sqrt2;
+    return {-side, std::sin(kSunElevation),
+            side}; // north -Z, east +X: the south-west is (-1, ., +1)
+}
+
+double clearSkySunRadius() {
+    return kSunRadius;
+}
+
+glm::dvec3 clearSkySunRadiance() {
+    const double s = std::sin(kSunRadius);
+    return kSunIrradiance / (kPi * s * s); // E = pi sin^2 r L for a disc at normal incidence
+}
+
+glm::dvec3 clearSkyRadiance(const glm::dvec3& direction) {
+    const double cosineToSun = glm::dot(direction, clearSkySunDirection());
+    const glm::dvec3 sky = skyRadiance(std::max(direction.y, 0.0), cosineToSun);
+    if (direction.y >= 0.0) {
+        return sky;
+    }
+    // Below, the ground fades into the haze of the horizon within about two degrees.
+    const double haze = std::exp(direction.y / 0.025);
+    return groundRadiance() * (1.0 - haze) + sky * haze;
+}
+
+} // namespace lodestar::lighting

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include "lighting/mips.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/contract.h"
+#include "lighting/cube_seams.h"
+#include "lighting/solid_angle.h"
+
+namespace lodestar::lighting {
+
+namespace {
+
+constexpr int kFaces = 6;
+
+Cubemap withFullChain(const Cubemap& base) {
+    LODESTAR_EXPECT(!base.empty(), "a mip chain starts from a level 0");
+    Cubemap chain(base.width(), fullLevelCount(base.width()));
+    chain.level(0) = base.level(0);
+    return chain;
+}
+
+/// Plain means of the fine texels that a coarse one overlaps, within each face.
+void reduceBox(Cubemap& map, int coarseLevel) {
+    const int n = map.width(coarseLevel - 1);
+    const int m = map.width(coarseLevel);
+    const std::vector<AxisTaps> taps = boxTaps(n, m);
+    const float scale = static_cast<float>(m) * static_cast<float>(m) /
+                        (static_cast<float>(n) * static_cast<float>(n));
+    for (int face = 0; face < kFaces; ++face) {
+        for (int j = 0; j < m; ++j) {
+            const AxisTaps& ty = taps[static_cast<std::size_t>(j)];
+            for (int i = 0; i < m; ++i) {
+                const AxisTaps& tx = taps[static_cast<std::size_t>(i)];
+                glm::vec4 sum(0.0f);
+                for (int b = 0; b < ty.count; ++b) {
+                    const glm::vec4* row =
+                        &map.texel(face, tx.first, ty.first + b, coarseLevel - 1);
+                    for (int a = 0; a < tx.count; ++a) {
+                        sum += row[a] * (ty.weights[b] * tx.weights[a]);
+                    }
+                }
+                map.texel(face, i, j, coarseLevel) = sum * scale;
+            }
+        }
+    }
+}
+
+/// Solid angles of the overlaps of one coarse texel with its (at most 3x3) fine ones.
+struct OverlapSolidAngles {
+    float weights[3][3] = {};
+    float reciprocal = 0.0f;
+};
+
+OverlapSolidAngles overlapSolidAngles(const AxisTaps& tx, const AxisTaps& ty, int i, int j, int n,
+                                      int m) {
+    const auto ends = [n, m](const AxisTaps& t, int coarse, int k) {
+        const double begin = std::max(2.0 * (t.first + k) / n, 2.0 * coarse / m) - 1.0;
+        const double end = std::min(2.0 * (t.first + k + 1) / n, 2.0 * (coarse + 1) / m) - 1.0;
+        return std::pair{begin, end};
+    };
+    OverlapSolidAngles overlap;
+    double sum = 0.0;
+    for (int b = 0; b < ty.count; ++b) {
+        const auto [y0, y1] = ends(ty, j, b);
+        for (int a = 0; a < tx.count; ++a) {
+            const auto [x0, x1] = ends(tx, i, a);
+            const double omega = rectangleSolidAngle(x0, y0, x1, y1);
+            overlap.weights[b][a] = static_cast<float>(omega);
+            sum += omega;
+        }
+    }
+    overlap.reciprocal = static_cast<float>(1.0 / sum);
+    return overlap;
+}
+
+/// Means weighted by solid angle, within each face.
+void reduceSolidAngle(Cubemap& map, int coarseLevel) {
+    const int n = map.width(coarseLevel - 1);
+    const int m = map.width(coarseLevel);
+    const std::vector<AxisTaps> taps = boxTaps(n, m);
+    for (int j = 0; j < m; ++j) {
+        const AxisTaps& ty = taps[static_cast<std::size_t>(j)];
+        for (int i = 0; i < m; ++i) {
+            const AxisTaps& tx = taps[static_cast<std::size_t>(i)];
+            const OverlapSolidAngles overlap = overlapSolidAngles(tx, ty, i, j, n, m);
+            for (int face = 0; face < kFaces; ++face) {
+                glm::vec4 sum(0.0f);
+                for (int b = 0; b < ty.count; ++b) {
+                    const glm::vec4* row =
+                        &map.texel(face, tx.first, ty.first + b, coarseLevel - 1);
+                    for (int a = 0; a < tx.count; ++a) {
+                        sum += row[a] * overlap.weights[b][a];
+                    }
+                }
+                map.texel(face, i, j, coarseLevel) = sum * overlap.reciprocal;
+            }
+        }
+    }
+}
+
+/// Scales a level so that each channel's mean over the sphere is the wanted one.
+void keepMean(Cubemap& map, int level, const glm::dvec4& wanted) {
+    const glm::dvec4 mean = sphereMean(map, level);
+    glm::vec4 scale(1.0f);
+    for (int c = 0; c < 4; ++c) {
+        scale[c] = mean[c] > 0.0 ? static_cast<float>(wanted[c] / mean[c]) : 1.0f;
+    }
+    for (glm::vec4& texel : map.level(level)) {
+        texel *= scale;
+    }
+}
+
+/// The tent, for any width: 4x4 taps for even ones, up to 5x5 for odd ones.
+void reduceTent(Cubemap& map, int coarseLevel) {
+    const int fine = coarseLevel - 1;
+    const int n = map.width(fine);
+    const int m = map.width(coarseLevel);
+    const std::vector<AxisTaps> taps = tentTaps(n, m);
+    const auto table = texelTable(n);
+    for (int face = 0; face < kFaces; ++face) {
+        for (int j = 0; j < m; ++j) {
+            const AxisTaps& ty = taps[static_cast<std::size_t>(j)];
+            for (int i = 0; i < m; ++i) {
+                const AxisTaps& tx = taps[static_cast<std::size_t>(i)];
+                glm::vec4 sum(0.0f);
+                for (int b = 0; b < ty.count; ++b) {
+                    const int y = ty.first + b;
+                    const float* omega = table->solidAngles(std::clamp(y, 0, n - 1));
+                    for (int a = 0; a < tx.count; ++a) {
+                        const int x = tx.first + a;
+                        sum += seamlessTexel(map, fine, face, x, y) *
+                               (omega[std::clamp(x, 0, n - 1)] * ty.weights[b] * tx.weights[a]);
+                    }
+                }
+                map.texel(face, i, j, coarseLevel) = sum * table->tentReciprocals(j)[i];
+            }
+        }
+    }
+}
+
+} // namespace
+
+glm::dvec4 sphereMean(const Cubemap& map, int level) {
+    const int n = map.width(level);
+    const auto table = texelTable(n);
+    glm::dvec4 sum(0.0);
+    double solidAngle = 0.0;
+    for (int y = 0; y < n; ++y) {
+        const float* omega = table->solidAngles(y);
+        for (int x = 0; x < n; ++x) {
+            solidAngle += kFaces * static_cast<double>(omega[x]);
+        }
+        for (int face = 0; face < kFaces; ++face) {
+            const glm::vec4* row = &map.texel(face, 0, y, level);
+            glm::dvec4 rowSum(0.0);
+            for (int x = 0; x < n; ++x) {
+                rowSum += glm::dvec4(row[x]) * static_cast<double>(omega[x]);
+            }
+            sum += rowSum;
+        }
+    }
+    return sum / solidAngle;
+}
+
+Cubemap boxMips(const Cubemap& base) {
+    Cubemap chain = withFullChain(base);
+    for (int k = 1; k < chain.levelCount(); ++k) {
+        reduceBox(chain, k);
+    }
+    return chain;
+}
+
+Cubemap solidAngleMips(const Cubemap& base) {
+    Cubemap chain = withFullChain(base);
+    for (int k = 1; k < chain.levelCount(); ++k) {
+        reduceSolidAngle(chain, k);
+    }
+    return chain;
+}
+
+void fillTentMips(Cubemap& chain) {
+    LODESTAR_EXPECT(!chain.empty(), "a mip chain starts from a level 0");
+    const glm::dvec4 mean = sphereMean(chain, 0);
+    for (int k = 1; k < chain.levelCount(); ++k) {
+        reduceTent(chain, k);
+        keepMean(chain, k, mean);
+    }
+}
+
+Cubemap tentMips(const Cubemap& base) {
+    Cubemap chain = withFullChain(base);
+    fillTentMips(chain);
+    return chain;
+}
+
+} // namespace lodestar::lighting
