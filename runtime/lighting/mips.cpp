@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/contract.h"
-#include "lighting/cube_seams.h"
 #include "lighting/solid_angle.h"
 
 namespace lodestar::lighting {
@@ -100,46 +99,6 @@ void reduceSolidAngle(Cubemap& map, int coarseLevel) {
     }
 }
 
-/// Scales a level so that each channel's mean over the sphere is the wanted one.
-void keepMean(Cubemap& map, int level, const glm::dvec4& wanted) {
-    const glm::dvec4 mean = sphereMean(map, level);
-    glm::vec4 scale(1.0f);
-    for (int c = 0; c < 4; ++c) {
-        scale[c] = mean[c] > 0.0 ? static_cast<float>(wanted[c] / mean[c]) : 1.0f;
-    }
-    for (glm::vec4& texel : map.level(level)) {
-        texel *= scale;
-    }
-}
-
-/// The tent, for any width: 4x4 taps for even ones, up to 5x5 for odd ones.
-void reduceTent(Cubemap& map, int coarseLevel) {
-    const int fine = coarseLevel - 1;
-    const int n = map.width(fine);
-    const int m = map.width(coarseLevel);
-    const std::vector<AxisTaps> taps = tentTaps(n, m);
-    const auto table = texelTable(n);
-    for (int face = 0; face < kFaces; ++face) {
-        for (int j = 0; j < m; ++j) {
-            const AxisTaps& ty = taps[static_cast<std::size_t>(j)];
-            for (int i = 0; i < m; ++i) {
-                const AxisTaps& tx = taps[static_cast<std::size_t>(i)];
-                glm::vec4 sum(0.0f);
-                for (int b = 0; b < ty.count; ++b) {
-                    const int y = ty.first + b;
-                    const float* omega = table->solidAngles(std::clamp(y, 0, n - 1));
-                    for (int a = 0; a < tx.count; ++a) {
-                        const int x = tx.first + a;
-                        sum += seamlessTexel(map, fine, face, x, y) *
-                               (omega[std::clamp(x, 0, n - 1)] * ty.weights[b] * tx.weights[a]);
-                    }
-                }
-                map.texel(face, i, j, coarseLevel) = sum * table->tentReciprocals(j)[i];
-            }
-        }
-    }
-}
-
 } // namespace
 
 glm::dvec4 sphereMean(const Cubemap& map, int level) {
@@ -177,21 +136,6 @@ Cubemap solidAngleMips(const Cubemap& base) {
     for (int k = 1; k < chain.levelCount(); ++k) {
         reduceSolidAngle(chain, k);
     }
-    return chain;
-}
-
-void fillTentMips(Cubemap& chain) {
-    LODESTAR_EXPECT(!chain.empty(), "a mip chain starts from a level 0");
-    const glm::dvec4 mean = sphereMean(chain, 0);
-    for (int k = 1; k < chain.levelCount(); ++k) {
-        reduceTent(chain, k);
-        keepMean(chain, k, mean);
-    }
-}
-
-Cubemap tentMips(const Cubemap& base) {
-    Cubemap chain = withFullChain(base);
-    fillTentMips(chain);
     return chain;
 }
 
