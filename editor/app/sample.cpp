@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "sample.h"
+#include "app/sample.h"
 
+#include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <sstream>
 
 #include <CLI/CLI.hpp>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/command.h"
+#include "app/commands.h"
 #include "io/environment_file.h"
 #include "io/file.h"
 #include "lighting/mips.h"
-#include "report.h"
 
 namespace lodestar::app {
 
@@ -29,58 +30,27 @@ constexpr double kMaxExponent = 1e7;
 /// Base texels kept before the store is emptied: about 1 GiB with both mip chains.
 constexpr std::size_t kMaxTexels = std::size_t{24} << 20;
 
-core::Error usage(std::string what, std::string where = {}) {
-    return {core::ErrorCode::Usage, std::move(what), {}, std::move(where)};
-}
-
-/// A number with nothing after it; "inf" is one, "nan" is not.
-std::optional<double> parseNumber(std::string_view text) {
-    double value = 0.0;
-    const char* end = text.data() + text.size();
-    const auto [stop, code] = std::from_chars(text.data(), end, value);
-    if (code != std::errc() || stop != end || std::isnan(value)) {
-        return std::nullopt;
+/// An exponent brought into the range of the lobes.
+core::Result<double> parseRepairedExponent(const std::string& text, core::Tally& warnings) {
+    auto value = parseExponent(text, "exponent");
+    if (value && *value > kMaxExponent && std::isfinite(*value)) {
+        warnings.add("exponent above 1e7, set to 1e7");
+        return kMaxExponent;
     }
     return value;
 }
 
-core::Result<double> parseExponent(const std::string& text, core::Tally& warnings) {
-    const std::optional<double> value = parseNumber(text);
-    if (!value) {
-        return usage("the exponent \"" + text + "\" is not a number or \"inf\"");
-    }
-    if (*value < 0.0) {
-        warnings.add("exponent below 0, set to 0");
-        return 0.0;
-    }
-    if (*value > kMaxExponent && std::isfinite(*value)) {
-        warnings.add("exponent above 1e7, set to 1e7");
-        return kMaxExponent;
-    }
-    return *value;
-}
-
 core::Result<glm::dvec3> parseDirection(const std::string& text) {
-    std::array<double, 3> parts{};
-    std::size_t begin = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t end = i < 2 ? text.find(',', begin) : text.size();
-        const auto value = end == std::string::npos
-                               ? std::nullopt
-                               : parseNumber(std::string_view(text).substr(begin, end - begin));
-        if (!value || !std::isfinite(*value)) {
-            return usage("the direction \"" + text + "\" is not three numbers X,Y,Z");
-        }
-        parts[i] = *value;
-        begin = end + 1;
+    const auto direction = parseVector(text, "direction");
+    if (!direction) {
+        return direction.error();
     }
-    const glm::dvec3 direction(parts[0], parts[1], parts[2]);
-    const double largest =
-        std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
+    const glm::dvec3 a = glm::abs(*direction);
+    const double largest = std::max({a.x, a.y, a.z});
     if (largest == 0.0) {
-        return usage("the direction 0,0,0 points nowhere");
+        return usage("0,0,0 points nowhere", "direction");
     }
-    return glm::normalize(direction / largest); // squares of huge components would overflow
+    return glm::normalize(*direction / largest); // squares of huge components would overflow
 }
 
 core::Result<lighting::Lobe> parseLobe(const std::string& text) {
@@ -118,7 +88,7 @@ core::Result<lighting::LookupRequest> parseRequest(const SampleQuery& query,
         if (!query.exponent) {
             return usage("an exponent is needed for this lobe");
         }
-        auto exponent = parseExponent(*query.exponent, warnings);
+        auto exponent = parseRepairedExponent(*query.exponent, warnings);
         if (!exponent) {
             return exponent.error();
         }
@@ -192,7 +162,7 @@ core::Result<void> setKey(SampleQuery& query, const std::string& key, const json
 int runBatch(const SampleOptions& options) {
     auto bytes = io::readFile(options.batch);
     if (!bytes) {
-        return reportError(core::inFile(bytes.error(), options.batch));
+        return fail(core::inFile(bytes.error(), options.batch));
     }
     Sampler sampler;
     std::istringstream lines(std::string(bytes->begin(), bytes->end()));
@@ -206,7 +176,7 @@ int runBatch(const SampleOptions& options) {
             query ? sampler.answer(*query) : core::Result<Sampler::Answer>(query.error());
         std::string text;
         if (answer) {
-            reportWarnings(query->environment.value_or(""), answer->warnings);
+            warn(answer->warnings, query->environment.value_or(""));
             text = answerJson(answer->lookup);
         } else {
             text = json{{"error", answer.error().message()},
@@ -221,7 +191,7 @@ int runBatch(const SampleOptions& options) {
 /// What was printed reached the file or pipe, or the status says that it did not.
 int finish(int status) {
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-        return reportError(
+        return fail(
             {core::ErrorCode::OutputFailed, "the answer could not be written", "stdout", {}});
     }
     return status;
@@ -317,9 +287,9 @@ int runSample(const SampleOptions& options) {
     Sampler sampler;
     const auto answer = sampler.answer(options.query);
     if (!answer) {
-        return reportError(answer.error());
+        return fail(answer.error());
     }
-    reportWarnings(options.query.environment.value_or(""), answer->warnings);
+    warn(answer->warnings, options.query.environment.value_or(""));
     std::printf("%s\n", answerJson(answer->lookup).c_str());
     return finish(0);
 }

@@ -13,10 +13,6 @@
 #include "lighting/environment.h"
 #include "lighting/lookup.h"
 
-namespace CLI {
-class App;
-}
-
 namespace lodestar::app {
 
 /// One lookup in words, as the command line or a line of a batch says it; what is not said is
@@ -71,8 +67,5 @@ private:
 
 /// Runs the subcommand: answers on stdout, errors and warnings on stderr. @return the exit status
 [[nodiscard]] int runSample(const SampleOptions& options);
-
-/// Registers the subcommand; its callback sets the status.
-void addSample(CLI::App& app, int& status);
 
 } // namespace lodestar::app

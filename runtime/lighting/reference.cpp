@@ -26,9 +26,8 @@ namespace {
 
 using glm::dvec3;
 
-/// Weights below this share of the lobe's peak are skipped: 4 pi of them against a lobe of solid
-/// angle 2 pi / (s + 1) add at most 2e-12 (s + 1) of the brightest texel, and a texel so far down
-/// the lobe is reached by s large enough only at angles that shrink with it.
+/// Weights below this share of the lobe's peak are skipped. The mass of the lobe below a cosine x
+/// is x^(s+1), so what is skipped is at most this share of the whole.
 constexpr double kLeastWeight = 1e-12;
 
 /// What depends on a face's width alone, the same for all six faces, row by row.
@@ -174,8 +173,7 @@ double narrowness(const Cubemap& base, const dvec3& direction, double exponent) 
     const double m = std::max({a.x, a.y, a.z});
     const double solidAngle = 4.0 / (width * width) * m * m * m;
     const double share = (exponent + 1.0) * solidAngle / (2.0 * std::numbers::pi);
-    const double x = std::clamp(
-        std::log(share * std::numbers::pi) / std::numbers::ln2 / std::log2(3.0), 0.0, 1.0);
+    const double x = std::clamp(std::log(share * std::numbers::pi) / std::log(3.0), 0.0, 1.0);
     return x * x * (3.0 - 2.0 * x);
 }
 
