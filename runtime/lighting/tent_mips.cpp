@@ -28,44 +28,91 @@ namespace {
 
 constexpr int kFaces = 6;
 
-/// out[x] = in[x] * weight[x], and adds their sum to *total. Eight sums, because one alone would
-/// wait for each addition. @param count > 0
-LODESTAR_VECTOR_CLONES
-void weightRow(const Float4* in, const float* weight, Float4* out, int count, Float4* total) {
-    Float4 sums[8] = {};
-    int x = 0;
-    for (; x + 8 <= count; x += 8) {
-        for (int k = 0; k < 8; ++k) {
-            const Float4 weighted = in[x + k] * weight[x + k];
-            out[x + k] = weighted;
-            sums[k] += weighted;
-        }
+typedef float Float8 __attribute__((vector_size(32), aligned(4), may_alias));
+
+#define LODESTAR_PAIR(w)                                                                           \
+    Float8 {                                                                                       \
+        (w)[0], (w)[0], (w)[0], (w)[0], (w)[1], (w)[1], (w)[1], (w)[1]                             \
     }
-    for (; x < count; ++x) {
-        out[x] = in[x] * weight[x];
-        sums[0] += out[x];
-    }
-    *total +=
-        ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
+const Float8* asFloat8(const Float4* texels) {
+    return reinterpret_cast<const Float8*>(texels);
+}
+Float8* asFloat8(Float4* texels) {
+    return reinterpret_cast<Float8*>(texels);
 }
 
-/// One coarse row from four weighted fine rows. Element x + 1 of a fine row is its column x.
+/// A row of texels and what weighs it: the solid angles of its texels.
+struct Row {
+    const Float4* texels;
+    const float* weights;
+    Float4 left;  ///< the texel across the left edge
+    Float4 right; ///< and across the right one
+};
+
+/// What the upper two of a coarse texel's four fine rows have added so far, a + 3 b, by fine
+/// column.
+struct Carry {
+    Float4* inside;
+    Float4 left;
+    Float4 right;
+};
+
+/// Starts a face: a lies above it, b is its first row.
 LODESTAR_VECTOR_CLONES
-void tentRow(const Float4* const* rows, const float* reciprocals, Float4* out, int count) {
-    const Float4* a = rows[0];
-    const Float4* b = rows[1];
-    const Float4* c = rows[2];
-    const Float4* d = rows[3];
-    const auto down = [&](int x) { return (a[x] + d[x]) + 3.0f * (b[x] + c[x]); };
-    Float4 first = down(0);
-    Float4 second = down(1);
-    for (int i = 0; i < count; ++i) {
-        const Float4 third = down(2 * i + 2);
-        const Float4 fourth = down(2 * i + 3);
-        out[i] = ((first + fourth) + 3.0f * (second + third)) * reciprocals[i];
-        first = third;
-        second = fourth;
+void startTent(const Row& a, const Row& b, Carry& carry, int columns, Float4* sumOfB) {
+    Float4 sum = {};
+    for (int x = 0; x < columns; ++x) {
+        const Float4 weighted = b.texels[x] * b.weights[x];
+        sum += weighted;
+        carry.inside[x] = a.texels[x] * a.weights[x] + 3.0f * weighted;
     }
+    carry.left = a.left * a.weights[0] + 3.0f * (b.left * b.weights[0]);
+    carry.right = (a.right * a.weights[columns - 1]) + 3.0f * (b.right * b.weights[columns - 1]);
+    *sumOfB += sum;
+}
+
+/// Reads the next two fine rows, which end one coarse row (3 a + b) and start the next one (a + 3
+/// b), and writes the coarse row that ends: the (1 3 3 1) sum along the columns, over the weights'
+/// sum. Two columns at a time. Adds the sums of the weighted rows to sums[0] and sums[1].
+LODESTAR_VECTOR_CLONES
+void stepTent(const Row& a, const Row& b, Carry& carry, const float* reciprocals, Float4* out,
+              int count, Float4* sums) {
+    const float wl = a.weights[0];
+    const float wr = a.weights[2 * count - 1];
+    const float vl = b.weights[0];
+    const float vr = b.weights[2 * count - 1];
+    Float4 before = carry.left + 3.0f * (a.left * wl) + b.left * vl;
+    Float8 sumA = {};
+    Float8 sumB = {};
+    Float4 low = {};
+    Float4 high = {};
+    for (int i = 0; i < count; ++i) {
+        __builtin_prefetch(a.texels + 2 * i + 4 * count);
+        __builtin_prefetch(b.texels + 2 * i + 4 * count);
+        const Float8 fineA = *asFloat8(a.texels + 2 * i) * LODESTAR_PAIR(a.weights + 2 * i);
+        const Float8 fineB = *asFloat8(b.texels + 2 * i) * LODESTAR_PAIR(b.weights + 2 * i);
+        Float8& carried = *asFloat8(carry.inside + 2 * i);
+        const Float8 column = carried + 3.0f * fineA + fineB;
+        carried = fineA + 3.0f * fineB;
+        sumA += fineA;
+        sumB += fineB;
+        const Float4 first = __builtin_shufflevector(column, column, 0, 1, 2, 3);
+        const Float4 second = __builtin_shufflevector(column, column, 4, 5, 6, 7);
+        if (i > 0) {
+            out[i - 1] = ((before + first) + 3.0f * (low + high)) * reciprocals[i - 1];
+            before = high;
+        }
+        low = first;
+        high = second;
+    }
+    const Float4 after = carry.right + 3.0f * (a.right * wr) + b.right * vr;
+    out[count - 1] = ((before + after) + 3.0f * (low + high)) * reciprocals[count - 1];
+    carry.left = a.left * wl + 3.0f * (b.left * vl);
+    carry.right = a.right * wr + 3.0f * (b.right * vr);
+    sums[0] += __builtin_shufflevector(sumA, sumA, 0, 1, 2, 3) +
+               __builtin_shufflevector(sumA, sumA, 4, 5, 6, 7);
+    sums[1] += __builtin_shufflevector(sumB, sumB, 0, 1, 2, 3) +
+               __builtin_shufflevector(sumB, sumB, 4, 5, 6, 7);
 }
 
 LODESTAR_VECTOR_CLONES
@@ -80,7 +127,7 @@ void scaleTexels(Float4* texels, std::size_t count, const Float4* scale) {
 class TentReducer {
 public:
     explicit TentReducer(Cubemap& chain)
-        : chain_(chain), buffers_(static_cast<std::size_t>(4 * (chain.width() + 2))),
+        : chain_(chain), carried_(static_cast<std::size_t>(chain.width())),
           outer_(static_cast<std::size_t>(4 * chain.width())) {}
 
     /// Makes a level, not yet scaled, from the one above. @return the sum over the sphere of solid
@@ -100,20 +147,24 @@ private:
     void reduceFace(int face, int coarseLevel) {
         gatherOuter(face);
         const int m = n_ / 2;
-        const Float4* rows[4] = {outerRow(0, Edge::Top), insideRow(1, face, 0), nullptr, nullptr};
+        Carry carry{asFloat4(carried_.data()), {}, {}};
+        glm::vec4 sums[2] = {};
+        startTent(outerRow(Edge::Top), insideRow(0), carry, n_, asFloat4(sums));
+        sum_ += glm::dvec4(sums[0]);
         for (int j = 0; j < m; ++j) {
             const int y = 2 * j + 1;
-            rows[2] = insideRow((y + 1) % 4, face, y);
-            rows[3] = y + 1 < n_ ? insideRow((y + 2) % 4, face, y + 1)
-                                 : outerRow((y + 2) % 4, Edge::Bottom);
-            tentRow(rows, table_->tentReciprocals(j),
-                    asFloat4(&chain_.texel(face, 0, j, coarseLevel)), m);
-            rows[0] = rows[2];
-            rows[1] = rows[3];
+            const bool last = y + 1 == n_;
+            sums[0] = sums[1] = glm::vec4(0.0f);
+            stepTent(insideRow(y), last ? outerRow(Edge::Bottom) : insideRow(y + 1), carry,
+                     table_->tentReciprocals(j), asFloat4(&chain_.texel(face, 0, j, coarseLevel)),
+                     m, asFloat4(sums));
+            sum_ += glm::dvec4(sums[0]);
+            if (!last) {
+                sum_ += glm::dvec4(sums[1]);
+            }
         }
     }
 
-    [[nodiscard]] Float4* buffer(int slot) { return asFloat4(buffers_.data()) + slot * (n_ + 2); }
     [[nodiscard]] const glm::vec4* outer(Edge edge) const {
         return outer_.data() + static_cast<int>(edge) * n_;
     }
@@ -132,45 +183,26 @@ private:
         }
     }
 
-    /// A row of the face, weighted, with one texel from across the edge at either end. The solid
-    /// angle of an outer texel is its neighbour's: the cube's symmetry.
-    const Float4* insideRow(int slot, int face, int y) {
-        const float* omega = table_->solidAngles(y);
-        Float4* out = buffer(slot);
-        glm::vec4 total(0.0f);
-        weightRow(asFloat4(&chain_.texel(face, 0, y, level_)), omega, out + 1, n_,
-                  asFloat4(&total));
-        sum_ += glm::dvec4(total);
-        out[0] = *asFloat4(&outer(Edge::Left)[y]) * omega[0];
-        out[n_ + 1] = *asFloat4(&outer(Edge::Right)[y]) * omega[n_ - 1];
-        return out;
+    /// A row of the face. The solid angle of an outer texel is its neighbour's: the cube's
+    /// symmetry.
+    [[nodiscard]] Row insideRow(int y) const {
+        return {asFloat4(inside_ + static_cast<std::ptrdiff_t>(y) * n_), table_->solidAngles(y),
+                *asFloat4(&outer(Edge::Left)[y]), *asFloat4(&outer(Edge::Right)[y])};
     }
 
-    /// The row above or below the face, weighted; at its ends the mean of the three texels that
-    /// meet at the cube's corner.
-    const Float4* outerRow(int slot, Edge edge) {
+    /// The row above or below the face; at its ends the mean of the three texels that meet at the
+    /// cube's corner.
+    [[nodiscard]] Row outerRow(Edge edge) const {
         const int y = edge == Edge::Top ? 0 : n_ - 1;
-        const float* omega = table_->solidAngles(y);
-        const glm::vec4* row = outer(edge);
-        Float4* out = buffer(slot);
-        glm::vec4 unused(0.0f);
-        weightRow(asFloat4(row), omega, out + 1, n_, asFloat4(&unused));
-        return outerCorners(out, edge, y, omega[0]);
-    }
-
-    const Float4* outerCorners(Float4* out, Edge edge, int y, float omega) {
-        const glm::vec4* row = outer(edge);
-        const glm::vec4* inside = inside_ + static_cast<std::ptrdiff_t>(y) * n_;
-        const float third = omega / 3.0f;
-        const glm::vec4 left = (inside[0] + row[0] + outer(Edge::Left)[y]) * third;
-        const glm::vec4 right = (inside[n_ - 1] + row[n_ - 1] + outer(Edge::Right)[y]) * third;
-        out[0] = *asFloat4(&left);
-        out[n_ + 1] = *asFloat4(&right);
-        return out;
+        const Float4* row = asFloat4(outer(edge));
+        const Row inside = insideRow(y);
+        constexpr float kThird = 1.0f / 3.0f;
+        return {row, inside.weights, (inside.texels[0] + row[0] + inside.left) * kThird,
+                (inside.texels[n_ - 1] + row[n_ - 1] + inside.right) * kThird};
     }
 
     Cubemap& chain_;
-    std::vector<glm::vec4> buffers_; ///< four weighted rows
+    std::vector<glm::vec4> carried_; ///< Carry::inside
     std::vector<glm::vec4> outer_;   ///< the texels across the four edges
     std::shared_ptr<const TexelTable> table_;
     const glm::vec4* inside_ = nullptr; ///< texels of the face
