@@ -10,6 +10,8 @@
 
 #include <epoxy/gl.h>
 
+#include "core/half.h"
+
 namespace lodestar::gl {
 namespace {
 
@@ -59,6 +61,29 @@ void setLabel(const Device& device, unsigned id, const char* label) {
     if (device.capabilities().debugOutput) {
         glObjectLabel(GL_TEXTURE, id, -1, label);
     }
+}
+
+/// Uploads the six faces of one level; returns the bytes sent.
+std::size_t uploadLevel(const lighting::Cubemap& map, int level, bool half, float factor) {
+    const std::vector<glm::vec4>& texels = map.level(level);
+    const auto width = static_cast<std::size_t>(map.width(level));
+    std::vector<std::uint16_t> halves;
+    if (half) {
+        halves.reserve(texels.size() * 4);
+        for (const glm::vec4& texel : texels) {
+            for (const float value : {texel.r * factor, texel.g * factor, texel.b * factor, texel.a}) {
+                halves.push_back(core::halfFromFloat(value));
+            }
+        }
+    }
+    for (std::size_t face = 0; face < 6; ++face) {
+        const std::size_t first = face * width * width;
+        const void* data = half ? static_cast<const void*>(&halves[4 * first]) : &texels[first];
+        glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + static_cast<GLenum>(face), level,
+                     half ? GL_RGBA16F : GL_RGBA32F, static_cast<GLsizei>(width),
+                     static_cast<GLsizei>(width), 0, GL_RGBA, half ? GL_HALF_FLOAT : GL_FLOAT, data);
+    }
+    return texels.size() * (half ? 8u : 16u);
 }
 
 } // namespace
@@ -162,37 +187,22 @@ core::Result<Texture> Texture::makeCube(Device& device, const lighting::Cubemap&
     texture.scale_ = largest > kLargestHalf ? std::exp2(std::ceil(std::log2(largest / kLargestHalf))) : 1.0f;
     const bool half = texture.scale_ <= kLargestHalfScale;
     texture.scale_ = half ? texture.scale_ : 1.0f;
-    const float inverse = 1.0f / texture.scale_;
     glBindTexture(GL_TEXTURE_CUBE_MAP, texture.id_);
-    std::vector<glm::vec4> scaled;
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     for (int level = 0; level < map.levelCount(); ++level) {
-        const auto width = static_cast<std::size_t>(map.width(level));
-        const std::vector<glm::vec4>* texels = &map.level(level);
-        if (texture.scale_ != 1.0f) {
-            scaled = *texels;
-            for (glm::vec4& texel : scaled) {
-                texel = glm::vec4(glm::vec3(texel) * inverse, texel.a);
-            }
-            texels = &scaled;
-        }
-        for (std::size_t face = 0; face < 6; ++face) {
-            glTexImage2D(static_cast<GLenum>(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face), level,
-                         half ? GL_RGBA16F : GL_RGBA32F, static_cast<GLsizei>(width),
-                         static_cast<GLsizei>(width), 0, GL_RGBA, GL_FLOAT,
-                         texels->data() + face * width * width);
-            ++device.counters().uploads;
-        }
-        device.counters().uploadBytes += texels->size() * sizeof(glm::vec4);
-        device.counters().texelsWritten += texels->size();
-        texture.bytes_ += texels->size() * (half ? 8u : 16u);
+        texture.bytes_ += uploadLevel(map, level, half, 1.0f / texture.scale_);
+        device.counters().texelsWritten += map.level(level).size();
     }
+    device.counters().uploads += static_cast<std::uint64_t>(6 * map.levelCount());
+    device.counters().uploadBytes += texture.bytes_;
     if (auto allocated = checkAllocation(label); !allocated) {
         return allocated.error();
     }
     glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAX_LEVEL, map.levelCount() - 1);
     glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    for (GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
+    constexpr GLenum kWraps[] = {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R};
+    for (const GLenum wrap : kWraps) {
         glTexParameteri(GL_TEXTURE_CUBE_MAP, wrap, GL_CLAMP_TO_EDGE);
     }
     setLabel(device, texture.id_, label);
@@ -237,7 +247,7 @@ core::Result<Texture> Texture::makeDepthTarget(Device& device, int width, int he
 }
 
 void Texture::bind(int unit) const {
-    glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     glBindTexture(target_, id_);
 }
 

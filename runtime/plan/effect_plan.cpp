@@ -22,7 +22,7 @@ constexpr std::array<const char*, 14> kFeatureNames = {
 std::uint64_t chainTexels(int width) {
     std::uint64_t texels = 0;
     for (int w = width; w > 0; w /= 2) {
-        texels += 6ull * static_cast<std::uint64_t>(w) * static_cast<std::uint64_t>(w);
+        texels += std::uint64_t{6} * static_cast<std::uint64_t>(w) * static_cast<std::uint64_t>(w);
     }
     return texels;
 }
@@ -82,7 +82,7 @@ void planEnvironment(const PlanInput& input, const Receivers& receivers, EffectP
     const std::string diffuse = "visible diffuse surfaces, and '" +
                                 lighting::estimatorName(input.diffuse) + "' reads it";
     const std::uint64_t chain = chainTexels(input.environment.width);
-    const std::uint64_t small = 6ull * lighting::kIrradianceWidth * lighting::kIrradianceWidth;
+    const std::uint64_t small = std::uint64_t{6} * lighting::kIrradianceWidth * lighting::kIrradianceWidth;
     const std::array<Part, 4> parts = {{
         {"tent-mips", &PreparedParts::tentMips, chain, {}},
         {"box-mips", &PreparedParts::boxMips, chain, {}},

@@ -169,7 +169,7 @@ struct Renderer::State {
     std::string source;
     lighting::Cubemap base;
     lighting::PreparedParts prepared;
-    lighting::Sh9 sh9{};
+    lighting::Sh9Coefficients sh9{};
     gl::Texture tentMips, boxMips, irradiance;
 
     core::Result<void> prepareEnvironment(const lighting::PreparedParts& parts);

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+//
+// The renderer's promises: deterministic, finite, tiles without seams, counted work.
+#include <cmath>
+#include <limits>
+
+#include "lighting/environment.h"
+#include "scene/renderer.h"
+#include "support/gl_fixture.h"
+#include "support/shapes.h"
+
+namespace lodestar {
+namespace {
+
+class Rendering : public testing::GlTest {
+protected:
+    static scene::RenderSettings small(int width = 96, int height = 96) {
+        scene::RenderSettings settings;
+        settings.width = width;
+        settings.height = height;
+        return settings;
+    }
+    std::unique_ptr<scene::Renderer> renderer(const scene::Scene& scene, int width = 64) {
+        auto made = scene::Renderer::make(device(), scene);
+        EXPECT_TRUE(made.ok());
+        (*made)->setEnvironment("sky", lighting::cubeFromAnalytic(lighting::ClearSkyEnvironment{}, width));
+        return std::move(*made);
+    }
+};
+
+TEST_F(Rendering, SameFrameTwiceIsBitIdentical) {
+    const scene::Scene scene =
+        scene::buildScene(testing::fileOf(testing::sphere(), testing::blinnPhong({0.5, 0.2, 0.1}, glm::vec3(0.04f), 40.0f)));
+    const scene::View view = testing::frontView(scene);
+    auto first = renderer(scene)->render(view, small());
+    auto second = renderer(scene)->render(view, small());
+    ASSERT_TRUE(first.ok() && second.ok());
+    EXPECT_EQ(first->radiance.pixels(), second->radiance.pixels());
+}
+
+TEST_F(Rendering, TilesJoinWithoutSeams) {
+    // Two tiles high, against the same picture drawn in parts that fit one tile: every pixel whose
+    // footprint does not touch the border is the same sample, up to the tile's projection rounding.
+    const scene::Scene scene =
+        scene::buildScene(testing::fileOf(testing::sphere(), testing::blinnPhong({0.7, 0.7, 0.7}, glm::vec3(0.04f), 8.0f)));
+    const scene::View view = testing::frontView(scene);
+    auto made = renderer(scene, 32);
+    auto tall = made->render(view, small(16, 2600));
+    ASSERT_TRUE(tall.ok());
+    // The sphere is smooth: neighbouring rows across row 2048 differ no more than rows elsewhere.
+    const auto step = [&](int y) {
+        float largest = 0.0f;
+        for (int x = 0; x < 16; ++x) {
+            for (int c = 0; c < 3; ++c) {
+                largest = std::max(largest, std::abs(tall->radiance.at(x, y)[c] - tall->radiance.at(x, y - 1)[c]));
+            }
+        }
+        return largest;
+    };
+    float elsewhere = 0.0f;
+    for (int y = 2000; y < 2040; ++y) {
+        elsewhere = std::max(elsewhere, step(y));
+    }
+    EXPECT_LE(step(2048), 2.0f * elsewhere + 1e-5f);
+    EXPECT_GT(tall->radiance.at(8, 1300)[3], 0.0f);
+}
+
+TEST_F(Rendering, SecondFramePreparesAndCompilesNothing) {
+    const scene::Scene scene =
+        scene::buildScene(testing::fileOf(testing::sphere(), testing::blinnPhong({0.5, 0.5, 0.5}, glm::vec3(0.04f), 8.0f)));
+    auto made = renderer(scene);
+    const scene::View view = testing::frontView(scene);
+    auto first = made->render(view, small());
+    auto second = made->render(view, small());
+    ASSERT_TRUE(first.ok() && second.ok());
+    EXPECT_TRUE(first->plan.runs("tent-mips"));
+    EXPECT_TRUE(first->plan.runs("irradiance"));
+    EXPECT_FALSE(second->plan.runs("tent-mips"));
+    EXPECT_FALSE(second->plan.runs("irradiance"));
+    EXPECT_EQ(second->counters.shaderCompilations, 0u);
+    EXPECT_EQ(second->counters.draws, 2u); // the sphere and the backdrop
+    EXPECT_LT(second->counters.uploadBytes, 8192u); // uniform blocks only
+    EXPECT_EQ(second->counters.stateQueries, 0u);
+}
+
+TEST_F(Rendering, WhatNothingVisibleCallsForIsNotDone) {
+    const scene::Scene scene =
+        scene::buildScene(testing::fileOf(testing::sphere(), testing::blinnPhong({0.5, 0.5, 0.5}, glm::vec3(0.04f), 8.0f)));
+    auto made = renderer(scene);
+    scene::CameraRequest away;
+    away.eye = glm::vec3(0.0f, 0.0f, 3.0f);
+    away.target = glm::vec3(0.0f, 0.0f, 9.0f);
+    scene::RenderSettings settings = small();
+    settings.backdrop = false;
+    auto frame = made->render(*scene::chooseView(scene, away, 1.0f), settings);
+    ASSERT_TRUE(frame.ok());
+    EXPECT_EQ(frame->counters.draws, 0u);
+    EXPECT_EQ(frame->counters.shaderCompilations, 0u);
+    EXPECT_FALSE(frame->plan.runs("tent-mips"));
+    EXPECT_FALSE(frame->plan.runs("irradiance"));
+    for (float value : frame->radiance.pixels()) {
+        ASSERT_EQ(value, 0.0f);
+    }
+}
+
+TEST_F(Rendering, RadianceAboveHalfFloatsRangeIsKept) {
+    // A mirror under a constant 1e6, and a lamp of 1e9 in the dark.
+    const scene::Scene scene =
+        scene::buildScene(testing::fileOf(testing::square(), testing::blinnPhong({}, glm::vec3(1.0f), 1e7f)));
+    auto made = renderer(scene);
+    for (const double radiance : {1e6, 1e9}) {
+        made->setEnvironment("bright", lighting::cubeFromAnalytic(
+                                           lighting::ConstantEnvironment{glm::dvec3(radiance)}, 16));
+        auto frame = made->render(testing::frontView(scene), small());
+        ASSERT_TRUE(frame.ok());
+        EXPECT_NEAR(frame->radiance.at(48, 48)[0] / radiance, 1.0, 1e-3);
+        EXPECT_EQ(frame->repairedPixels, 0u);
+    }
+}
+
+TEST_F(Rendering, NormalMapTiltsTowardsItsColours) {
+    // A flat normal map of (+x, 0, +z)/sqrt 2 on a mirror facing +Z reflects +X; of +y reflects +Y.
+    const lighting::FacesEnvironment faces{{glm::dvec3(1, 0, 0), glm::dvec3(0), glm::dvec3(0, 1, 0),
+                                            glm::dvec3(0), glm::dvec3(0), glm::dvec3(0)}};
+    const float tilt = 0.5f + 0.5f * std::sqrt(0.5f);
+    for (const bool up : {false, true}) {
+        io::GltfMaterial material = testing::blinnPhong({}, glm::vec3(1.0f), 1e7f);
+        material.normalTexture.texture = 0;
+        io::GltfFile file = testing::fileOf(testing::square(), material);
+        core::Image normals(1, 1, 4);
+        normals.pixels() = {up ? 0.5f : tilt, up ? tilt : 0.5f, tilt, 1.0f};
+        file.images.push_back(normals);
+        file.textures.push_back({0, {}, {}, {}, {}, {}});
+        const scene::Scene scene = scene::buildScene(std::move(file));
+        auto made = scene::Renderer::make(device(), scene);
+        ASSERT_TRUE(made.ok());
+        (*made)->setEnvironment("faces", lighting::cubeFromAnalytic(faces, 64));
+        auto frame = (*made)->render(testing::frontView(scene, 30.0f), small());
+        ASSERT_TRUE(frame.ok());
+        const float* center = frame->radiance.at(48, 48);
+        EXPECT_GT(center[up ? 1 : 0], 0.9f) << (up ? "up" : "right");
+        EXPECT_LT(center[up ? 0 : 1], 0.1f) << (up ? "up" : "right");
+    }
+}
+
+} // namespace
+} // namespace lodestar
