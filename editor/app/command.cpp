@@ -75,7 +75,8 @@ core::Result<double> parseExponent(std::string_view text, const std::string& opt
     }
     const std::optional<double> value = parseNumber(text);
     if (!value || *value < 0.0) {
-        return usage("'" + std::string(text) + "' is not an exponent: a number from 0, or inf", option);
+        return usage("'" + std::string(text) + "' is not an exponent: a number from 0, or inf",
+                     option);
     }
     return *value;
 }

@@ -25,9 +25,10 @@ void warn(const core::Tally& warnings, const std::string& file);
 [[nodiscard]] core::Error usage(std::string what, std::string where = {});
 
 /// "a,b,c" as numbers. @errors Usage naming the option if there are not `count` finite numbers
-[[nodiscard]] core::Result<std::vector<double>> parseNumbers(std::string_view text, std::size_t count,
-                                                             const std::string& option);
-[[nodiscard]] core::Result<glm::dvec3> parseVector(std::string_view text, const std::string& option);
+[[nodiscard]] core::Result<std::vector<double>>
+parseNumbers(std::string_view text, std::size_t count, const std::string& option);
+[[nodiscard]] core::Result<glm::dvec3> parseVector(std::string_view text,
+                                                   const std::string& option);
 
 /// A Blinn-Phong or Phong exponent: a number from 0, or `inf` or `mirror`. @errors Usage
 [[nodiscard]] core::Result<double> parseExponent(std::string_view text, const std::string& option);

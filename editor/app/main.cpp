@@ -10,9 +10,10 @@
 int main(int argc, char** argv) {
     using namespace lodestar;
     int status = 0;
-    CLI::App app("Image-based lighting that needs no preprocessing: loads a glTF scene, lights it from a\n"
-                 "panorama or cube map, and says what the light costs.",
-                 "lodestar");
+    CLI::App app(
+        "Image-based lighting that needs no preprocessing: loads a glTF scene, lights it from a\n"
+        "panorama or cube map, and says what the light costs.",
+        "lodestar");
     app.require_subcommand(1);
     app.set_version_flag("--version", std::string("lodestar " LODESTAR_VERSION));
     app.footer("Exit status: 0 done, 1 internal error, 2 wrong usage, 3 an input was refused,\n"

@@ -109,8 +109,9 @@ core::Result<void> renderAll(const RenderOptions& options, OutputKind kind, Load
             return frame.error();
         }
         if (sequence || i + 1 == options.frames) {
-            const core::Image image =
-                kind == OutputKind::Png ? toDisplay(frame->radiance, options.exposure) : frame->radiance;
+            const core::Image image = kind == OutputKind::Png
+                                          ? toDisplay(frame->radiance, options.exposure)
+                                          : frame->radiance;
             if (auto written = io::writeImage(framePath(options.output, i), image); !written) {
                 return written;
             }
@@ -157,24 +158,29 @@ int runRender(const RenderOptions& options) {
 
 void addRender(CLI::App& app, int& status) {
     auto options = std::make_shared<RenderOptions>();
-    CLI::App* command = app.add_subcommand("render", "Render a scene to a picture, without a window");
+    CLI::App* command =
+        app.add_subcommand("render", "Render a scene to a picture, without a window");
     addSceneOptions(*command, options->scene);
-    command->add_option("-o,--output", options->output,
-                        "OUT.png (exposure and filmic tone map) or OUT.exr (linear radiance)")
+    command
+        ->add_option("-o,--output", options->output,
+                     "OUT.png (exposure and filmic tone map) or OUT.exr (linear radiance)")
         ->required();
     command->add_option("--exposure", options->exposure, "Stops by which a PNG is brightened")
         ->capture_default_str();
-    command->add_option("--samples", options->samples,
-                        "Samples a pixel: 1, 4, 9 or 16 (default 4 for PNG; 1 for EXR, so that every\n"
-                        "pixel holds a radiance and not a blend)")
+    command
+        ->add_option("--samples", options->samples,
+                     "Samples a pixel: 1, 4, 9 or 16 (default 4 for PNG; 1 for EXR, so that every\n"
+                     "pixel holds a radiance and not a blend)")
         ->check(CLI::IsMember({1, 4, 9, 16}));
-    command->add_option("--frames", options->frames,
-                        "Frames drawn in one process; with %04d in OUT each is kept, else the last")
+    command
+        ->add_option("--frames", options->frames,
+                     "Frames drawn in one process; with %04d in OUT each is kept, else the last")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
     command->add_option("--stats", options->stats, "Write the plan, counters and times as JSON");
-    command->footer("Example: a model in a studio, one stop brighter\n"
-                    "  lodestar render helmet.glb --environment studio.hdr --exposure 1 -o helmet.png");
+    command->footer(
+        "Example: a model in a studio, one stop brighter\n"
+        "  lodestar render helmet.glb --environment studio.hdr --exposure 1 -o helmet.png");
     command->callback([options, &status] { status = runRender(*options); });
 }
 

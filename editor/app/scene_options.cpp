@@ -20,8 +20,8 @@ core::Result<glm::ivec2> parseSize(const std::string& text) {
     int width = 0;
     int height = 0;
     char rest = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 1 || height < 1 ||
-        width > kMaxSide || height > kMaxSide) {
+    if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 1 ||
+        height < 1 || width > kMaxSide || height > kMaxSide) {
         return usage("'" + text + "' is not a size WxH of 1 to 16384 pixels a side", "--size");
     }
     return glm::ivec2(width, height);
@@ -44,7 +44,8 @@ core::Result<scene::MaterialOverride> parseOverride(const std::string& text) {
         const std::size_t next = equals == std::string::npos ? equals : text.find('=', equals + 1);
         std::size_t end = next == std::string::npos ? text.size() : text.rfind(',', next);
         if (equals == std::string::npos || end == std::string::npos || end <= equals) {
-            return usage("'" + text + "' is not diffuse=R,G,B,f0=R,G,B,exponent=S", "--override-material");
+            return usage("'" + text + "' is not diffuse=R,G,B,f0=R,G,B,exponent=S",
+                         "--override-material");
         }
         const std::string value = text.substr(equals + 1, end - equals - 1);
         if (key == "exponent") {
@@ -87,7 +88,8 @@ core::Result<lighting::Estimator> parseShaderEstimator(const std::string& name, 
         return error;
     }
     if (estimator->kind == lighting::EstimatorKind::Reference) {
-        return usage("'reference' runs on the CPU: ask for one lookup with `lodestar sample`", option);
+        return usage("'reference' runs on the CPU: ask for one lookup with `lodestar sample`",
+                     option);
     }
     return estimator;
 }
@@ -151,12 +153,14 @@ core::Result<scene::RenderSettings> renderSettings(const SceneOptions& options) 
 
 void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("SCENE", options.scene, "The scene, .gltf or .glb")->required();
-    command.add_option("--environment", options.environment,
-                       "Distant light: a panorama, a cube cross or strip, six files STEM_px.EXT .., or\n"
-                       "constant:R,G,B | gradient:DOWN,UP | disc:X,Y,Z,DEGREES,INSIDE[,OUTSIDE] |\n"
-                       "faces:C;C;C;C;C;C (C a number or R/G/B). Default: a clear sky at 15:00");
-    command.add_option("--environment-width", options.cubeWidth,
-                       "Face width of the environment's cube map, in texels")
+    command.add_option(
+        "--environment", options.environment,
+        "Distant light: a panorama, a cube cross or strip, six files STEM_px.EXT .., or\n"
+        "constant:R,G,B | gradient:DOWN,UP | disc:X,Y,Z,DEGREES,INSIDE[,OUTSIDE] |\n"
+        "faces:C;C;C;C;C;C (C a number or R/G/B). Default: a clear sky at 15:00");
+    command
+        .add_option("--environment-width", options.cubeWidth,
+                    "Face width of the environment's cube map, in texels")
         ->check(CLI::Range(1, 4096))
         ->capture_default_str();
     command.add_option("--camera", options.camera, "A camera of the scene, by name or number");
@@ -164,8 +168,9 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("--target", options.target, "Point looked at, X,Y,Z in metres");
     command.add_option("--fov", options.fovDegrees, "Vertical field of view in degrees");
     command.add_option("--size", options.size, "Picture size WxH")->capture_default_str();
-    command.add_option("--specular", options.specular,
-                       "Glossy estimator: tent (default), mip, mip-floor, bias:LAMBDA, bias:LAMBDA:vertex");
+    command.add_option(
+        "--specular", options.specular,
+        "Glossy estimator: tent (default), mip, mip-floor, bias:LAMBDA, bias:LAMBDA:vertex");
     command.add_option("--diffuse", options.diffuse,
                        "Diffuse estimator: irradiance (default), sh9, lowest-mip, bias:LAMBDA");
     command.add_option("--override-material", options.materialOverride,

@@ -9,7 +9,8 @@ namespace lodestar::core {
 namespace {
 
 void printViolation(const char* rule, const char* message, const char* file, int line) {
-    std::fprintf(stderr, "lodestar: contract violated: %s [%s] (%s:%d)\n", message, rule, file, line);
+    std::fprintf(stderr, "lodestar: contract violated: %s [%s] (%s:%d)\n", message, rule, file,
+                 line);
 }
 
 std::atomic<ContractHandler> currentHandler{printViolation};

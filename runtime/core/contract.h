@@ -12,7 +12,8 @@ using ContractHandler = void (*)(const char* rule, const char* message, const ch
 ContractHandler setContractHandler(ContractHandler handler);
 
 /// Calls the handler; aborts if it returns.
-[[noreturn]] void contractViolated(const char* rule, const char* message, const char* file, int line);
+[[noreturn]] void contractViolated(const char* rule, const char* message, const char* file,
+                                   int line);
 
 } // namespace lodestar::core
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Errors of the world outside (files, drivers, disk) as values. A caller's own mistake is a contract
-// (core/contract.h), never a Result.
+// Errors of the world outside (files, drivers, disk) as values. A caller's own mistake is a
+// contract (core/contract.h), never a Result.
 #pragma once
 
 #include <optional>

@@ -10,9 +10,12 @@ namespace {
 
 GLenum glTarget(BufferKind kind) {
     switch (kind) {
-    case BufferKind::Index: return GL_ELEMENT_ARRAY_BUFFER;
-    case BufferKind::Uniform: return GL_UNIFORM_BUFFER;
-    case BufferKind::Vertex: break;
+    case BufferKind::Index:
+        return GL_ELEMENT_ARRAY_BUFFER;
+    case BufferKind::Uniform:
+        return GL_UNIFORM_BUFFER;
+    case BufferKind::Vertex:
+        break;
     }
     return GL_ARRAY_BUFFER;
 }
@@ -25,7 +28,9 @@ Buffer::Buffer(Device& device, BufferKind kind, std::span<const std::byte> bytes
     update(bytes);
 }
 
-Buffer::Buffer(Buffer&& other) noexcept { *this = std::move(other); }
+Buffer::Buffer(Buffer&& other) noexcept {
+    *this = std::move(other);
+}
 
 Buffer& Buffer::operator=(Buffer&& other) noexcept {
     std::swap(device_, other.device_);
@@ -56,13 +61,21 @@ void Buffer::update(std::span<const std::byte> bytes) {
     device_->counters().uploadBytes += bytes.size();
 }
 
-void Buffer::bindBlock(unsigned binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, id_); }
+void Buffer::bindBlock(unsigned binding) const {
+    glBindBufferBase(GL_UNIFORM_BUFFER, binding, id_);
+}
 
-void Buffer::bind() const { glBindBuffer(glTarget(kind_), id_); }
+void Buffer::bind() const {
+    glBindBuffer(glTarget(kind_), id_);
+}
 
-VertexArray::VertexArray(Device&) { glGenVertexArrays(1, &id_); }
+VertexArray::VertexArray(Device&) {
+    glGenVertexArrays(1, &id_);
+}
 
-VertexArray::VertexArray(VertexArray&& other) noexcept { *this = std::move(other); }
+VertexArray::VertexArray(VertexArray&& other) noexcept {
+    *this = std::move(other);
+}
 
 VertexArray& VertexArray::operator=(VertexArray&& other) noexcept {
     std::swap(id_, other.id_);
@@ -88,7 +101,9 @@ void VertexArray::setIndices(const Buffer& buffer) {
     buffer.bind();
 }
 
-void VertexArray::bind() const { glBindVertexArray(id_); }
+void VertexArray::bind() const {
+    glBindVertexArray(id_);
+}
 
 void drawIndexed(Device& device, DrawMode mode, int indexCount) {
     const GLenum glMode = mode == DrawMode::Points  ? GL_POINTS

@@ -36,7 +36,14 @@ private:
 };
 
 /// Attribute locations shared by C++ and shaders/host/mesh.vert.
-enum class Attribute : unsigned { Position = 0, Normal = 1, Tangent = 2, Uv0 = 3, Uv1 = 4, Color = 5 };
+enum class Attribute : unsigned {
+    Position = 0,
+    Normal = 1,
+    Tangent = 2,
+    Uv0 = 3,
+    Uv1 = 4,
+    Color = 5
+};
 
 class VertexArray {
 public:

@@ -45,7 +45,9 @@ WorkCounters difference(const WorkCounters& later, const WorkCounters& earlier) 
 core::Result<std::unique_ptr<Device>> Device::create() {
     if (glGetString(GL_VERSION) == nullptr || epoxy_gl_version() < 33) {
         return core::Error{core::ErrorCode::NoOpenGl,
-                           "no usable OpenGL: 3.3 core is needed and no such context is current", {}, {}};
+                           "no usable OpenGL: 3.3 core is needed and no such context is current",
+                           {},
+                           {}};
     }
     std::unique_ptr<Device> device(new Device);
     device->capabilities_ = {epoxy_gl_version(),

@@ -16,9 +16,9 @@ namespace lodestar::gl {
 /// Work done since the device was made. All are totals; a frame's are differences.
 struct WorkCounters {
     std::uint64_t draws = 0;
-    std::uint64_t passes = 0;         ///< framebuffer bindings with draws to follow
-    std::uint64_t texelsWritten = 0;  ///< by uploads, mipmap calls and passes (viewport area)
-    std::uint64_t uploads = 0;        ///< texture and buffer uploads
+    std::uint64_t passes = 0;        ///< framebuffer bindings with draws to follow
+    std::uint64_t texelsWritten = 0; ///< by uploads, mipmap calls and passes (viewport area)
+    std::uint64_t uploads = 0;       ///< texture and buffer uploads
     std::uint64_t uploadBytes = 0;
     std::uint64_t programSwitches = 0;
     std::uint64_t shaderCompilations = 0;

@@ -8,7 +8,9 @@
 
 namespace lodestar::gl {
 
-Framebuffer::Framebuffer(Framebuffer&& other) noexcept { *this = std::move(other); }
+Framebuffer::Framebuffer(Framebuffer&& other) noexcept {
+    *this = std::move(other);
+}
 
 Framebuffer& Framebuffer::operator=(Framebuffer&& other) noexcept {
     std::swap(device_, other.device_);
@@ -48,8 +50,8 @@ core::Result<Framebuffer> Framebuffer::make(Device& device, int width, int heigh
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D,
                            framebuffer.depth_.id(), 0);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-        return core::Error{core::ErrorCode::NoOpenGl, "the driver cannot render to 32-bit float colour",
-                           {}, {}};
+        return core::Error{
+            core::ErrorCode::NoOpenGl, "the driver cannot render to 32-bit float colour", {}, {}};
     }
     return framebuffer;
 }

@@ -18,15 +18,16 @@ std::string_view folderOf(std::string_view name) {
     return slash == std::string_view::npos ? std::string_view{} : name.substr(0, slash + 1);
 }
 
-/// Appends a file's lines, replacing includes; `done` holds the files in the order of their numbers.
+/// Appends a file's lines, replacing includes; `done` holds the files in the order of their
+/// numbers.
 core::Result<void> append(std::string_view name, std::vector<std::string>& done, std::string& out) {
     if (std::find(done.begin(), done.end(), name) != done.end()) {
         return {};
     }
     std::string_view text = shaderFile(name);
     if (text.empty()) {
-        return core::Error{core::ErrorCode::Internal, "no such shader file is built in",
-                           std::string(name), {}};
+        return core::Error{
+            core::ErrorCode::Internal, "no such shader file is built in", std::string(name), {}};
     }
     const std::size_t number = done.size();
     done.emplace_back(name);
@@ -72,7 +73,8 @@ core::Result<unsigned> compile(Device& device, GLenum stage, const std::string& 
     glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
     log.resize(static_cast<std::size_t>(length));
     glDeleteShader(shader);
-    return core::Error{core::ErrorCode::Internal, "the driver refuses the shader: " + log, label, {}};
+    return core::Error{
+        core::ErrorCode::Internal, "the driver refuses the shader: " + log, label, {}};
 }
 
 } // namespace
@@ -94,7 +96,8 @@ std::vector<std::string_view> shaderFileNames() {
     return names;
 }
 
-core::Result<std::string> assembleShader(std::string_view name, int version, const Defines& defines) {
+core::Result<std::string> assembleShader(std::string_view name, int version,
+                                         const Defines& defines) {
     std::string text = "#version " + std::to_string(version) + " core\n";
     for (const auto& [macro, value] : defines) {
         text += "#define " + macro + " " + value + "\n";
@@ -106,7 +109,9 @@ core::Result<std::string> assembleShader(std::string_view name, int version, con
     return text;
 }
 
-Program::Program(Program&& other) noexcept { *this = std::move(other); }
+Program::Program(Program&& other) noexcept {
+    *this = std::move(other);
+}
 
 Program& Program::operator=(Program&& other) noexcept {
     std::swap(device_, other.device_);
@@ -160,8 +165,8 @@ core::Result<Program> Program::makeFromText(Device& device, const std::string& v
         GLsizei length = 0;
         glGetProgramInfoLog(program.id_, static_cast<GLsizei>(log.size()), &length, log.data());
         log.resize(static_cast<std::size_t>(length));
-        return core::Error{core::ErrorCode::Internal, "the driver does not link the program: " + log,
-                           label, {}};
+        return core::Error{
+            core::ErrorCode::Internal, "the driver does not link the program: " + log, label, {}};
     }
     if (device.capabilities().debugOutput) {
         glObjectLabel(GL_PROGRAM, program.id_, -1, label.c_str());
@@ -169,9 +174,13 @@ core::Result<Program> Program::makeFromText(Device& device, const std::string& v
     return program;
 }
 
-void Program::use() const { device_->useProgram(id_); }
+void Program::use() const {
+    device_->useProgram(id_);
+}
 
-int Program::uniform(const char* name) const { return glGetUniformLocation(id_, name); }
+int Program::uniform(const char* name) const {
+    return glGetUniformLocation(id_, name);
+}
 
 void Program::setSampler(const char* name, int unit) const {
     if (const int location = uniform(name); location >= 0) {

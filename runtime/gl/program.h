@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Programs from the embedded shader text: includes flattened, features as defines, compiler messages
-// mapped back to file and line.
+// Programs from the embedded shader text: includes flattened, features as defines, compiler
+// messages mapped back to file and line.
 #pragma once
 
 #include <string>
@@ -42,7 +42,8 @@ public:
                                                     std::string_view fragmentFile,
                                                     const Defines& defines);
     /// The same from whole texts.
-    [[nodiscard]] static core::Result<Program> makeFromText(Device& device, const std::string& vertex,
+    [[nodiscard]] static core::Result<Program> makeFromText(Device& device,
+                                                            const std::string& vertex,
                                                             const std::string& fragment,
                                                             const std::string& label);
 

@@ -21,9 +21,12 @@ constexpr float kLargestHalfScale = 64.0f;
 
 GLint glWrap(Wrap wrap) {
     switch (wrap) {
-    case Wrap::MirroredRepeat: return GL_MIRRORED_REPEAT;
-    case Wrap::ClampToEdge: return GL_CLAMP_TO_EDGE;
-    case Wrap::Repeat: break;
+    case Wrap::MirroredRepeat:
+        return GL_MIRRORED_REPEAT;
+    case Wrap::ClampToEdge:
+        return GL_CLAMP_TO_EDGE;
+    case Wrap::Repeat:
+        break;
     }
     return GL_REPEAT;
 }
@@ -71,7 +74,8 @@ std::size_t uploadLevel(const lighting::Cubemap& map, int level, bool half, floa
     if (half) {
         halves.reserve(texels.size() * 4);
         for (const glm::vec4& texel : texels) {
-            for (const float value : {texel.r * factor, texel.g * factor, texel.b * factor, texel.a}) {
+            for (const float value :
+                 {texel.r * factor, texel.g * factor, texel.b * factor, texel.a}) {
                 halves.push_back(core::halfFromFloat(value));
             }
         }
@@ -81,7 +85,8 @@ std::size_t uploadLevel(const lighting::Cubemap& map, int level, bool half, floa
         const void* data = half ? static_cast<const void*>(&halves[4 * first]) : &texels[first];
         glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + static_cast<GLenum>(face), level,
                      half ? GL_RGBA16F : GL_RGBA32F, static_cast<GLsizei>(width),
-                     static_cast<GLsizei>(width), 0, GL_RGBA, half ? GL_HALF_FLOAT : GL_FLOAT, data);
+                     static_cast<GLsizei>(width), 0, GL_RGBA, half ? GL_HALF_FLOAT : GL_FLOAT,
+                     data);
     }
     return texels.size() * (half ? 8u : 16u);
 }
@@ -92,7 +97,9 @@ Texture::Texture(Device& device, unsigned target) : device_(&device), target_(ta
     glGenTextures(1, &id_);
 }
 
-Texture::Texture(Texture&& other) noexcept { *this = std::move(other); }
+Texture::Texture(Texture&& other) noexcept {
+    *this = std::move(other);
+}
 
 Texture& Texture::operator=(Texture&& other) noexcept {
     if (this != &other) {
@@ -108,7 +115,9 @@ Texture& Texture::operator=(Texture&& other) noexcept {
     return *this;
 }
 
-Texture::~Texture() { reset(); }
+Texture::~Texture() {
+    reset();
+}
 
 void Texture::reset() {
     if (id_ != 0) {
@@ -184,7 +193,8 @@ core::Result<Texture> Texture::makeCube(Device& device, const lighting::Cubemap&
     Texture texture(device, GL_TEXTURE_CUBE_MAP);
     texture.width_ = map.width();
     texture.levelCount_ = map.levelCount();
-    texture.scale_ = largest > kLargestHalf ? std::exp2(std::ceil(std::log2(largest / kLargestHalf))) : 1.0f;
+    texture.scale_ =
+        largest > kLargestHalf ? std::exp2(std::ceil(std::log2(largest / kLargestHalf))) : 1.0f;
     const bool half = texture.scale_ <= kLargestHalfScale;
     texture.scale_ = half ? texture.scale_ : 1.0f;
     glBindTexture(GL_TEXTURE_CUBE_MAP, texture.id_);

@@ -41,11 +41,13 @@ public:
                                                       const char* label);
     /// A cube with all levels of the map, sampled seamlessly and trilinearly. Half floats with a
     /// power-of-two scale where the largest value allows it, else floats: nothing is clamped.
-    [[nodiscard]] static core::Result<Texture> makeCube(Device& device, const lighting::Cubemap& map,
-                                                        const char* label);
+    [[nodiscard]] static core::Result<Texture>
+    makeCube(Device& device, const lighting::Cubemap& map, const char* label);
     /// A float colour target and a depth target, one level, not filtered.
-    [[nodiscard]] static core::Result<Texture> makeColorTarget(Device& device, int width, int height);
-    [[nodiscard]] static core::Result<Texture> makeDepthTarget(Device& device, int width, int height);
+    [[nodiscard]] static core::Result<Texture> makeColorTarget(Device& device, int width,
+                                                               int height);
+    [[nodiscard]] static core::Result<Texture> makeDepthTarget(Device& device, int width,
+                                                               int height);
 
     /// Takes over a texture made elsewhere. @param target a GL texture target
     [[nodiscard]] static Texture adopt(Device& device, unsigned id, unsigned target);

@@ -5,13 +5,21 @@
 
 namespace lodestar::gl {
 
-Timer::Timer(Device&) { glGenQueries(1, &id_); }
+Timer::Timer(Device&) {
+    glGenQueries(1, &id_);
+}
 
-Timer::~Timer() { glDeleteQueries(1, &id_); }
+Timer::~Timer() {
+    glDeleteQueries(1, &id_);
+}
 
-void Timer::begin() { glBeginQuery(GL_TIME_ELAPSED, id_); }
+void Timer::begin() {
+    glBeginQuery(GL_TIME_ELAPSED, id_);
+}
 
-void Timer::end() { glEndQuery(GL_TIME_ELAPSED); }
+void Timer::end() {
+    glEndQuery(GL_TIME_ELAPSED);
+}
 
 double Timer::milliseconds() const {
     GLuint64 nanoseconds = 0;

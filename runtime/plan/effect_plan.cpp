@@ -12,11 +12,20 @@ namespace {
 using lighting::EstimatorKind;
 using lighting::PreparedParts;
 
-constexpr std::array<const char*, 14> kFeatureNames = {
-    "normals",        "tangents",          "vertex-colors",    "base-color-texture",
-    "metallic-roughness-texture", "normal-texture", "occlusion-texture", "emissive-texture",
-    "blinn-phong",    "exponent-texture",  "alpha-mask",       "alpha-blend",
-    "punctual-lights", "environment"};
+constexpr std::array<const char*, 14> kFeatureNames = {"normals",
+                                                       "tangents",
+                                                       "vertex-colors",
+                                                       "base-color-texture",
+                                                       "metallic-roughness-texture",
+                                                       "normal-texture",
+                                                       "occlusion-texture",
+                                                       "emissive-texture",
+                                                       "blinn-phong",
+                                                       "exponent-texture",
+                                                       "alpha-mask",
+                                                       "alpha-blend",
+                                                       "punctual-lights",
+                                                       "environment"};
 
 /// Texels of a whole chain of six faces.
 std::uint64_t chainTexels(int width) {
@@ -56,8 +65,8 @@ struct Part {
     std::string askedBecause;
 };
 
-Effect decidePart(const PlanInput& input, const Part& part, bool wanted, const std::string& unwanted,
-                  PreparedParts& prepare) {
+Effect decidePart(const PlanInput& input, const Part& part, bool wanted,
+                  const std::string& unwanted, PreparedParts& prepare) {
     Effect effect{part.effect, input.environment.source, Decision::Skip, {}, {}};
     const bool kept = !input.environment.changed && input.alreadyPrepared.*part.member;
     if (!wanted) {
@@ -77,12 +86,13 @@ Effect decidePart(const PlanInput& input, const Part& part, bool wanted, const s
 void planEnvironment(const PlanInput& input, const Receivers& receivers, EffectPlan& result) {
     const PreparedParts forSpecular = lighting::partsFor(input.specular);
     const PreparedParts forDiffuse = lighting::partsFor(input.diffuse);
-    const std::string specular = "visible glossy surfaces, and '" +
-                                 lighting::estimatorName(input.specular) + "' reads it";
-    const std::string diffuse = "visible diffuse surfaces, and '" +
-                                lighting::estimatorName(input.diffuse) + "' reads it";
+    const std::string specular =
+        "visible glossy surfaces, and '" + lighting::estimatorName(input.specular) + "' reads it";
+    const std::string diffuse =
+        "visible diffuse surfaces, and '" + lighting::estimatorName(input.diffuse) + "' reads it";
     const std::uint64_t chain = chainTexels(input.environment.width);
-    const std::uint64_t small = std::uint64_t{6} * lighting::kIrradianceWidth * lighting::kIrradianceWidth;
+    const std::uint64_t small =
+        std::uint64_t{6} * lighting::kIrradianceWidth * lighting::kIrradianceWidth;
     const std::array<Part, 4> parts = {{
         {"tent-mips", &PreparedParts::tentMips, chain, {}},
         {"box-mips", &PreparedParts::boxMips, chain, {}},
@@ -102,8 +112,9 @@ void planEnvironment(const PlanInput& input, const Receivers& receivers, EffectP
         }
         const bool estimated = forSpecular.*part.member || forDiffuse.*part.member;
         const std::string unwanted =
-            !estimated ? "no chosen estimator reads it"
-                       : (receivers.any ? "no visible surface reflects that way" : "nothing is visible");
+            !estimated
+                ? "no chosen estimator reads it"
+                : (receivers.any ? "no visible surface reflects that way" : "nothing is visible");
         result.effects.push_back(
             decidePart(input, part, glossy || lambert || backdropOnly, unwanted, result.prepare));
     }
@@ -116,14 +127,17 @@ void planDraws(const PlanInput& input, EffectPlan& result) {
         if (draw.visible) {
             (draw.blended ? blended : result.drawOrder).push_back(i);
         }
-        result.effects.push_back({"draw", draw.subject, draw.visible ? Decision::Run : Decision::Skip,
+        result.effects.push_back({"draw",
+                                  draw.subject,
+                                  draw.visible ? Decision::Run : Decision::Skip,
                                   draw.visible ? "inside the view" : "outside the view",
                                   {draw.visible ? 1u : 0u, 0, 0, 0}});
     }
     // Opaque draws that share features follow each other, so that programs switch seldom.
-    std::stable_sort(result.drawOrder.begin(), result.drawOrder.end(), [&](std::size_t a, std::size_t b) {
-        return input.draws[a].features < input.draws[b].features;
-    });
+    std::stable_sort(result.drawOrder.begin(), result.drawOrder.end(),
+                     [&](std::size_t a, std::size_t b) {
+                         return input.draws[a].features < input.draws[b].features;
+                     });
     std::stable_sort(blended.begin(), blended.end(), [&](std::size_t a, std::size_t b) {
         return input.draws[a].distance > input.draws[b].distance;
     });
@@ -160,17 +174,19 @@ EffectPlan plan(const PlanInput& input) {
     const Receivers receivers = visibleReceivers(input);
     planEnvironment(input, receivers, result);
     planDraws(input, result);
-    result.effects.push_back({"punctual-lights", std::to_string(input.lightCount) + " lights",
-                              input.lightCount > 0 && receivers.any ? Decision::Run : Decision::Skip,
-                              input.lightCount == 0 ? "the scene has none"
-                              : receivers.any       ? "visible surfaces receive them"
-                                                    : "nothing is visible",
-                              {}});
+    result.effects.push_back(
+        {"punctual-lights",
+         std::to_string(input.lightCount) + " lights",
+         input.lightCount > 0 && receivers.any ? Decision::Run : Decision::Skip,
+         input.lightCount == 0 ? "the scene has none"
+         : receivers.any       ? "visible surfaces receive them"
+                               : "nothing is visible",
+         {}});
     result.backdrop = input.backdrop;
-    result.effects.push_back({"backdrop", input.environment.source,
+    result.effects.push_back({"backdrop",
+                              input.environment.source,
                               input.backdrop ? Decision::Run : Decision::Skip,
-                              input.backdrop ? "the environment is the background"
-                                             : "switched off",
+                              input.backdrop ? "the environment is the background" : "switched off",
                               {input.backdrop ? 1u : 0u, 0, 0, 0}});
     return result;
 }

@@ -33,8 +33,12 @@ enum class Feature : std::uint32_t {
 
 using Features = std::uint32_t;
 
-[[nodiscard]] constexpr Features bit(Feature feature) { return static_cast<Features>(feature); }
-[[nodiscard]] constexpr bool has(Features set, Feature feature) { return (set & bit(feature)) != 0; }
+[[nodiscard]] constexpr Features bit(Feature feature) {
+    return static_cast<Features>(feature);
+}
+[[nodiscard]] constexpr bool has(Features set, Feature feature) {
+    return (set & bit(feature)) != 0;
+}
 /// Lower-case names of the bits, in order, e.g. "normal-texture".
 [[nodiscard]] std::vector<std::string> featureNames(Features set);
 
@@ -42,17 +46,17 @@ using Features = std::uint32_t;
 struct DrawView {
     std::string subject; ///< "node/mesh" for people
     Features features = 0;
-    bool visible = true;  ///< inside the view
-    bool diffuse = true;  ///< reflects diffusely anywhere
-    bool glossy = true;   ///< reflects glossily anywhere
+    bool visible = true; ///< inside the view
+    bool diffuse = true; ///< reflects diffusely anywhere
+    bool glossy = true;  ///< reflects glossily anywhere
     bool blended = false;
     float distance = 0.0f; ///< metres along the view, for the order of blended draws
     int indexCount = 0;
 };
 
 struct EnvironmentView {
-    std::string source; ///< as the user named it
-    int width = 256;    ///< face width, texels
+    std::string source;  ///< as the user named it
+    int width = 256;     ///< face width, texels
     bool changed = true; ///< since the previous plan
 };
 
@@ -64,7 +68,7 @@ struct PlanInput {
     lighting::Estimator specular = lighting::kDefaultSpecular;
     lighting::Estimator diffuse = lighting::kDefaultDiffuse;
     bool backdrop = true;
-    std::uint64_t pixels = 0;              ///< shaded in a frame
+    std::uint64_t pixels = 0;                ///< shaded in a frame
     lighting::PreparedParts alreadyPrepared; ///< from earlier frames, of the same environment
 };
 
@@ -88,8 +92,9 @@ struct Effect {
 
 struct EffectPlan {
     std::vector<Effect> effects;
-    lighting::PreparedParts prepare;   ///< parts to make now
-    std::vector<std::size_t> drawOrder; ///< indices into PlanInput::draws: opaque, then blended back to front
+    lighting::PreparedParts prepare; ///< parts to make now
+    std::vector<std::size_t>
+        drawOrder; ///< indices into PlanInput::draws: opaque, then blended back to front
     std::vector<Features> drawFeatures; ///< shader features, in drawOrder's order
     bool backdrop = false;
 

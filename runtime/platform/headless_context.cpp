@@ -59,10 +59,10 @@ std::vector<EGLDisplay> candidateDisplays() {
 }
 
 EGLContext createContext(EGLDisplay display, bool egl15, bool debug) {
-    std::vector<EGLint> attributes = {EGL_CONTEXT_MAJOR_VERSION_KHR, kMajor,
-                                      EGL_CONTEXT_MINOR_VERSION_KHR, kMinor,
-                                      EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR,
-                                      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR};
+    std::vector<EGLint> attributes = {
+        EGL_CONTEXT_MAJOR_VERSION_KHR,       kMajor,
+        EGL_CONTEXT_MINOR_VERSION_KHR,       kMinor,
+        EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR};
     if (debug && egl15) {
         attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
     } else if (debug) {

@@ -9,8 +9,8 @@
 
 namespace lodestar::platform {
 
-/// A current core-profile context of OpenGL 3.3 or later, with debug output where the driver has it.
-/// Move-only; ends with the object. One thread at a time.
+/// A current core-profile context of OpenGL 3.3 or later, with debug output where the driver has
+/// it. Move-only; ends with the object. One thread at a time.
 class HeadlessContext {
 public:
     /// Tries EGL's surfaceless platform, then its devices.

@@ -61,9 +61,11 @@ View frame(const Scene& scene, float verticalFov, float aspect) {
     const Bounds bounds = scene.worldBounds();
     const glm::vec3 center = bounds.empty() ? glm::vec3(0.0f) : bounds.center();
     const float radius = bounds.empty() ? 1.0f : std::max(bounds.radius(), 1e-4f);
-    const float halfFov = 0.5f * std::min(verticalFov, 2.0f * std::atan(std::tan(0.5f * verticalFov) * aspect));
+    const float halfFov =
+        0.5f * std::min(verticalFov, 2.0f * std::atan(std::tan(0.5f * verticalFov) * aspect));
     const glm::vec3 direction = glm::normalize(glm::vec3(0.45f, 0.3f, 1.0f));
-    return lookAt(scene, center + direction * (radius / std::sin(halfFov)), center, verticalFov, aspect);
+    return lookAt(scene, center + direction * (radius / std::sin(halfFov)), center, verticalFov,
+                  aspect);
 }
 
 View fromCamera(const Scene& scene, const PlacedCamera& placed, float aspect,
@@ -84,12 +86,12 @@ View fromCamera(const Scene& scene, const PlacedCamera& placed, float aspect,
     view.cameraFromWorld = glm::lookAt(view.position, view.position - back, up);
     view.perspective = camera.perspective;
     if (camera.perspective) {
-        const float farPlane = std::isfinite(camera.farPlane)
-                                   ? camera.farPlane
-                                   : std::max(depthRange(scene, view.cameraFromWorld).y,
-                                              camera.nearPlane * 2.0f);
-        view.clipFromCamera =
-            glm::perspective(verticalFov.value_or(camera.verticalFov), aspect, camera.nearPlane, farPlane);
+        const float farPlane =
+            std::isfinite(camera.farPlane)
+                ? camera.farPlane
+                : std::max(depthRange(scene, view.cameraFromWorld).y, camera.nearPlane * 2.0f);
+        view.clipFromCamera = glm::perspective(verticalFov.value_or(camera.verticalFov), aspect,
+                                               camera.nearPlane, farPlane);
     } else {
         // The magnified width is kept, as a perspective keeps its vertical field of view.
         const float x = std::max(camera.xMagnification, camera.yMagnification * aspect);
@@ -156,13 +158,15 @@ bool mayBeSeen(const Bounds& worldBounds, const glm::mat4& clipFromWorld) {
         const glm::vec4 clip =
             clipFromWorld * glm::vec4((corner & 1) != 0 ? worldBounds.high.x : worldBounds.low.x,
                                       (corner & 2) != 0 ? worldBounds.high.y : worldBounds.low.y,
-                                      (corner & 4) != 0 ? worldBounds.high.z : worldBounds.low.z, 1.0f);
+                                      (corner & 4) != 0 ? worldBounds.high.z : worldBounds.low.z,
+                                      1.0f);
         for (int axis = 0; axis < 3; ++axis) {
             outside[2 * axis] += clip[axis] < -clip.w ? 1 : 0;
             outside[2 * axis + 1] += clip[axis] > clip.w ? 1 : 0;
         }
     }
-    return std::none_of(std::begin(outside), std::end(outside), [](int count) { return count == 8; });
+    return std::none_of(std::begin(outside), std::end(outside),
+                        [](int count) { return count == 8; });
 }
 
 } // namespace lodestar::scene

@@ -18,7 +18,7 @@ namespace lodestar::scene {
 struct View {
     glm::mat4 cameraFromWorld{1.0f};
     glm::mat4 clipFromCamera{1.0f};
-    glm::vec3 position{0.0f};         ///< metres; perspective only
+    glm::vec3 position{0.0f};                  ///< metres; perspective only
     glm::vec3 towardsViewer{0.0f, 0.0f, 1.0f}; ///< unit; orthographic only
     bool perspective = true;
 
@@ -27,16 +27,16 @@ struct View {
 
 /// What the user asked for; what is absent is chosen.
 struct CameraRequest {
-    std::string name;                ///< a camera's or its node's name, or its number; empty: the first
-    std::optional<glm::vec3> eye;    ///< metres
-    std::optional<glm::vec3> target; ///< metres
+    std::string name; ///< a camera's or its node's name, or its number; empty: the first
+    std::optional<glm::vec3> eye;     ///< metres
+    std::optional<glm::vec3> target;  ///< metres
     std::optional<float> verticalFov; ///< radians
 };
 
 inline constexpr float kDefaultVerticalFov = 0.785398163f; ///< 45 degrees
 
-/// The view for a request: eye and target where given, else the named camera, else the file's first,
-/// else one that frames the scene from the front, a little above.
+/// The view for a request: eye and target where given, else the named camera, else the file's
+/// first, else one that frames the scene from the front, a little above.
 /// @param aspect width over height  @errors Usage for a camera that is not there
 [[nodiscard]] core::Result<View> chooseView(const Scene& scene, const CameraRequest& request,
                                             float aspect);

@@ -9,10 +9,13 @@ namespace {
 using plan::bit;
 using plan::Feature;
 
-bool isBlack(const glm::vec3& color) { return color.r <= 0.0f && color.g <= 0.0f && color.b <= 0.0f; }
+bool isBlack(const glm::vec3& color) {
+    return color.r <= 0.0f && color.g <= 0.0f && color.b <= 0.0f;
+}
 
 /// Which of the two terms a material reflects anywhere on its surface.
-void setTerms(plan::DrawView& draw, const io::GltfMaterial& material, const RenderSettings& settings) {
+void setTerms(plan::DrawView& draw, const io::GltfMaterial& material,
+              const RenderSettings& settings) {
     if (settings.materialOverride) {
         const MaterialOverride& values = *settings.materialOverride;
         draw.diffuse = !isBlack(values.diffuse);
@@ -24,7 +27,8 @@ void setTerms(plan::DrawView& draw, const io::GltfMaterial& material, const Rend
                       given.exponentTexture.texture != io::kNone;
     } else {
         const bool textured = material.metallicRoughnessTexture.texture != io::kNone;
-        draw.diffuse = (material.metallic < 1.0f || textured) && !isBlack(glm::vec3(material.baseColor));
+        draw.diffuse =
+            (material.metallic < 1.0f || textured) && !isBlack(glm::vec3(material.baseColor));
         draw.glossy = true; // F0 is at least 0.04
     }
 }
@@ -91,12 +95,16 @@ plan::Features featuresOf(const Scene& scene, const io::GltfPrimitive& primitive
     const io::GltfMaterial& material = materialOf(scene, primitive);
     plan::Features features = 0;
     const auto add = [&](Feature feature, bool wanted) { features |= wanted ? bit(feature) : 0u; };
-    const auto textured = [](const io::GltfTextureRef& reference) { return reference.texture != io::kNone; };
+    const auto textured = [](const io::GltfTextureRef& reference) {
+        return reference.texture != io::kNone;
+    };
     const bool normals = !primitive.normals.empty();
     add(Feature::Normals, normals);
-    add(Feature::NormalTexture, normals && textured(material.normalTexture) &&
-                                    !primitive.uvs[material.normalTexture.uvSet > 0 ? 1 : 0].empty());
-    add(Feature::Tangents, plan::has(features, Feature::NormalTexture) && !primitive.tangents.empty());
+    add(Feature::NormalTexture,
+        normals && textured(material.normalTexture) &&
+            !primitive.uvs[material.normalTexture.uvSet > 0 ? 1 : 0].empty());
+    add(Feature::Tangents,
+        plan::has(features, Feature::NormalTexture) && !primitive.tangents.empty());
     if (settings.materialOverride) {
         return features | bit(Feature::BlinnPhong);
     }
@@ -126,7 +134,8 @@ plan::PlanInput planInput(const Scene& scene, const View& view, const RenderSett
     input.specular = settings.specular;
     input.diffuse = settings.diffuse;
     input.backdrop = settings.backdrop;
-    input.pixels = static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height) *
+    input.pixels = static_cast<std::uint64_t>(settings.width) *
+                   static_cast<std::uint64_t>(settings.height) *
                    static_cast<std::uint64_t>(settings.samplesPerSide * settings.samplesPerSide);
     return input;
 }

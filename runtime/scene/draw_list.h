@@ -29,7 +29,8 @@ struct PlacedLight {
 [[nodiscard]] std::vector<PlacedLight> placedLights(const Scene& scene);
 
 /// The material of a primitive: the file's, or glTF's default.
-[[nodiscard]] const io::GltfMaterial& materialOf(const Scene& scene, const io::GltfPrimitive& primitive);
+[[nodiscard]] const io::GltfMaterial& materialOf(const Scene& scene,
+                                                 const io::GltfPrimitive& primitive);
 
 /// What a primitive's shader must do under the settings.
 [[nodiscard]] plan::Features featuresOf(const Scene& scene, const io::GltfPrimitive& primitive,

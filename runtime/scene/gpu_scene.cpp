@@ -22,16 +22,20 @@ std::vector<TextureSlot> slotsOf(const io::GltfMaterial& material) {
         {kEmissiveUnit, &material.emissiveTexture, TexelEncoding::Srgb},
     };
     if (material.blinnPhong) {
-        slots.push_back({kExponentUnit, &material.blinnPhong->exponentTexture, TexelEncoding::Linear});
+        slots.push_back(
+            {kExponentUnit, &material.blinnPhong->exponentTexture, TexelEncoding::Linear});
     }
     return slots;
 }
 
 gl::Wrap wrapOf(io::Wrap wrap) {
     switch (wrap) {
-    case io::Wrap::MirroredRepeat: return gl::Wrap::MirroredRepeat;
-    case io::Wrap::ClampToEdge: return gl::Wrap::ClampToEdge;
-    case io::Wrap::Repeat: break;
+    case io::Wrap::MirroredRepeat:
+        return gl::Wrap::MirroredRepeat;
+    case io::Wrap::ClampToEdge:
+        return gl::Wrap::ClampToEdge;
+    case io::Wrap::Repeat:
+        break;
     }
     return gl::Wrap::Repeat;
 }
@@ -51,7 +55,8 @@ void addAttribute(gl::Device& device, GpuPrimitive& target, gl::Attribute attrib
     if (!values.empty()) {
         gl::Buffer& buffer = target.buffers.emplace_back(device, gl::BufferKind::Vertex,
                                                          std::as_bytes(std::span(values)));
-        target.vertices.setAttribute(attribute, buffer, static_cast<int>(sizeof(T) / sizeof(float)));
+        target.vertices.setAttribute(attribute, buffer,
+                                     static_cast<int>(sizeof(T) / sizeof(float)));
     }
 }
 
@@ -86,7 +91,8 @@ core::Result<GpuScene> GpuScene::make(gl::Device& device, const Scene& scene) {
     }
     for (const io::GltfMaterial& material : scene.materials) {
         for (const TextureSlot& slot : slotsOf(material)) {
-            if (auto added = result.addTexture(device, scene, *slot.reference, slot.encoding); !added) {
+            if (auto added = result.addTexture(device, scene, *slot.reference, slot.encoding);
+                !added) {
                 return added.error();
             }
         }
@@ -103,9 +109,8 @@ core::Result<void> GpuScene::addTexture(gl::Device& device, const Scene& scene,
     const io::GltfTexture& texture = scene.textures[static_cast<std::size_t>(reference.texture)];
     core::Image white(1, 1, 4);
     white.pixels().assign(4, 1.0f);
-    const core::Image& image = texture.image == io::kNone
-                                   ? white
-                                   : scene.images[static_cast<std::size_t>(texture.image)];
+    const core::Image& image =
+        texture.image == io::kNone ? white : scene.images[static_cast<std::size_t>(texture.image)];
     const std::string label = "texture " + std::to_string(reference.texture);
     auto made = gl::Texture::make2D(device, image, encoding, samplerOf(texture), label.c_str());
     if (!made) {

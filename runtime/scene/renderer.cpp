@@ -13,6 +13,7 @@
 
 #include "gl/timer.h"
 #include "scene/draw_list.h"
+#include "scene/gpu_environment.h"
 #include "scene/gpu_scene.h"
 
 namespace lodestar::scene {
@@ -37,21 +38,29 @@ double millisecondsSince(Clock::time_point start) {
 
 int specularMacro(EstimatorKind kind) {
     switch (kind) {
-    case EstimatorKind::Mip: return 0;
-    case EstimatorKind::MipFloor: return 1;
+    case EstimatorKind::Mip:
+        return 0;
+    case EstimatorKind::MipFloor:
+        return 1;
     case EstimatorKind::Bias:
-    case EstimatorKind::BiasVertex: return 2;
-    default: return 3;
+    case EstimatorKind::BiasVertex:
+        return 2;
+    default:
+        return 3;
     }
 }
 
 int diffuseMacro(EstimatorKind kind) {
     switch (kind) {
-    case EstimatorKind::Sh9: return 1;
-    case EstimatorKind::LowestMip: return 2;
+    case EstimatorKind::Sh9:
+        return 1;
+    case EstimatorKind::LowestMip:
+        return 2;
     case EstimatorKind::Bias:
-    case EstimatorKind::BiasVertex: return 3;
-    default: return 0;
+    case EstimatorKind::BiasVertex:
+        return 3;
+    default:
+        return 0;
     }
 }
 
@@ -77,7 +86,8 @@ gl::Defines definesFor(plan::Features features, const RenderSettings& settings) 
     for (const auto& [name, feature] : macros) {
         defines.emplace_back(name, plan::has(features, feature) ? "1" : "0");
     }
-    defines.emplace_back("LODESTAR_SPECULAR", std::to_string(specularMacro(settings.specular.kind)));
+    defines.emplace_back("LODESTAR_SPECULAR",
+                         std::to_string(specularMacro(settings.specular.kind)));
     defines.emplace_back("LODESTAR_DIFFUSE", std::to_string(diffuseMacro(settings.diffuse.kind)));
     defines.emplace_back("LODESTAR_BIAS_VERTEX",
                          settings.specular.kind == EstimatorKind::BiasVertex ? "1" : "0");
@@ -124,7 +134,8 @@ glm::mat4 tileFromClip(const glm::ivec4& tile, int width, int height) {
 }
 
 /// Averages a tile's samples into the picture; pixels that are not finite become 0 and are counted.
-std::uint64_t resolve(const core::Image& samples, int perSide, const glm::ivec2& at, core::Image& out) {
+std::uint64_t resolve(const core::Image& samples, int perSide, const glm::ivec2& at,
+                      core::Image& out) {
     std::uint64_t repaired = 0;
     const float weight = 1.0f / static_cast<float>(perSide * perSide);
     for (int y = 0; y < samples.height() / perSide; ++y) {
@@ -166,57 +177,17 @@ struct Renderer::State {
     std::map<gl::Defines, gl::Program> programs;
     gl::Program backdrop;
 
-    std::string source;
-    lighting::Cubemap base;
-    lighting::PreparedParts prepared;
-    lighting::Sh9Coefficients sh9{};
-    gl::Texture tentMips, boxMips, irradiance;
+    GpuEnvironment environment;
 
-    core::Result<void> prepareEnvironment(const lighting::PreparedParts& parts);
-    core::Result<void> compilePrograms(const plan::EffectPlan& plan, const RenderSettings& settings);
+    core::Result<void> compilePrograms(const plan::EffectPlan& plan,
+                                       const RenderSettings& settings);
     core::Result<const gl::Program*> program(const gl::Defines& defines);
-    const gl::Texture& environmentTexture(const RenderSettings& settings) const;
-    const gl::Texture* irradianceTexture(const RenderSettings& settings) const;
-    void fillEnvironment(const RenderSettings& settings, blocks::LodestarFrame& block) const;
+    core::Result<void> drawPicture(const View& view, const RenderSettings& settings, Frame& frame);
     void drawTile(const plan::EffectPlan& plan, const RenderSettings& settings,
                   const blocks::LodestarFrame& block);
     void drawBackdrop();
     void drawItem(const DrawItem& item, plan::Features features, const RenderSettings& settings);
 };
-
-core::Result<void> Renderer::State::prepareEnvironment(const lighting::PreparedParts& parts) {
-    if (parts == lighting::PreparedParts{}) {
-        return {};
-    }
-    const lighting::PreparedEnvironment made = lighting::prepare(base, parts);
-    const auto upload = [&](bool wanted, bool& done, const lighting::Cubemap& map, gl::Texture& texture,
-                            const char* label) -> core::Result<void> {
-        if (wanted) {
-            auto cube = gl::Texture::makeCube(device, map, label);
-            if (!cube) {
-                return cube.error();
-            }
-            texture = std::move(*cube);
-            done = true;
-        }
-        return {};
-    };
-    if (auto done = upload(parts.tentMips, prepared.tentMips, made.tentMips, tentMips, "tent mips"); !done) {
-        return done;
-    }
-    if (auto done = upload(parts.boxMips, prepared.boxMips, made.boxMips, boxMips, "box mips"); !done) {
-        return done;
-    }
-    if (auto done = upload(parts.irradiance, prepared.irradiance, made.irradiance, irradiance, "irradiance");
-        !done) {
-        return done;
-    }
-    if (parts.sh9) {
-        sh9 = made.sh9;
-        prepared.sh9 = true;
-    }
-    return {};
-}
 
 core::Result<const gl::Program*> Renderer::State::program(const gl::Defines& defines) {
     auto found = programs.find(defines);
@@ -255,37 +226,6 @@ core::Result<void> Renderer::State::compilePrograms(const plan::EffectPlan& plan
     return {};
 }
 
-/// The chain that the glossy estimator reads; for the backdrop any chain will do.
-const gl::Texture& Renderer::State::environmentTexture(const RenderSettings& settings) const {
-    const bool box = settings.specular.kind != EstimatorKind::Tent;
-    return (box && boxMips) || !tentMips ? boxMips : tentMips;
-}
-
-const gl::Texture* Renderer::State::irradianceTexture(const RenderSettings& settings) const {
-    switch (settings.diffuse.kind) {
-    case EstimatorKind::Sh9: return nullptr;
-    case EstimatorKind::LowestMip:
-    case EstimatorKind::Bias:
-    case EstimatorKind::BiasVertex: return &boxMips;
-    default: return &irradiance;
-    }
-}
-
-void Renderer::State::fillEnvironment(const RenderSettings& settings,
-                                      blocks::LodestarFrame& block) const {
-    const auto describe = [](const gl::Texture& texture, float leastLevel) {
-        return glm::vec4(static_cast<float>(texture.width()), static_cast<float>(texture.levelCount() - 1),
-                         leastLevel, texture.scale());
-    };
-    block.environmentCube = describe(environmentTexture(settings), settings.specular.leastLevel);
-    if (const gl::Texture* texture = irradianceTexture(settings)) {
-        block.irradianceCube = describe(*texture, settings.diffuse.leastLevel);
-    }
-    for (std::size_t i = 0; i < sh9.size(); ++i) {
-        block.sh9[i] = glm::vec4(sh9[i], 0.0f);
-    }
-}
-
 void Renderer::State::drawBackdrop() {
     backdrop.use();
     fullScreen.bind();
@@ -310,8 +250,8 @@ void Renderer::State::drawItem(const DrawItem& item, plan::Features features,
     // and its sign follows the determinant's, which the front-face rule below undoes.
     const glm::mat3 m(node.worldFromNode);
     const float sign = glm::determinant(m) < 0.0f ? -1.0f : 1.0f;
-    draw.normalFromModel = glm::mat4(sign * glm::mat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
-                                                      glm::cross(m[0], m[1])));
+    draw.normalFromModel = glm::mat4(
+        sign * glm::mat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])));
     drawBuffer.update(bytesOf(draw));
     drawBuffer.bindBlock(kDrawBinding);
     const blocks::LodestarMaterial block = materialBlock(material, settings.materialOverride);
@@ -336,15 +276,11 @@ void Renderer::State::drawTile(const plan::EffectPlan& plan, const RenderSetting
     glCullFace(GL_BACK);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glEnable(GL_PROGRAM_POINT_SIZE);
-    settings.seamless ? glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS) : glDisable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+    settings.seamless ? glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS)
+                      : glDisable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
     frameBuffer.update(bytesOf(block));
     frameBuffer.bindBlock(kFrameBinding);
-    if (const gl::Texture& texture = environmentTexture(settings)) {
-        texture.bind(kEnvironmentUnit);
-    }
-    if (const gl::Texture* texture = irradianceTexture(settings); texture != nullptr && *texture) {
-        texture->bind(kIrradianceUnit);
-    }
+    environment.bind(settings);
     bool backdropDrawn = !plan.backdrop;
     for (std::size_t i = 0; i < plan.drawOrder.size(); ++i) {
         const plan::Features features = plan.drawFeatures[i];
@@ -368,82 +304,86 @@ core::Result<std::unique_ptr<Renderer>> Renderer::make(gl::Device& device, const
         return uploaded.error();
     }
     auto state = std::make_unique<State>(device, scene, std::move(*uploaded));
-    state->frameBuffer = gl::Buffer(device, gl::BufferKind::Uniform, bytesOf(blocks::LodestarFrame{}));
-    state->drawBuffer = gl::Buffer(device, gl::BufferKind::Uniform, bytesOf(blocks::LodestarDraw{}));
+    state->frameBuffer =
+        gl::Buffer(device, gl::BufferKind::Uniform, bytesOf(blocks::LodestarFrame{}));
+    state->drawBuffer =
+        gl::Buffer(device, gl::BufferKind::Uniform, bytesOf(blocks::LodestarDraw{}));
     state->materialBuffer =
         gl::Buffer(device, gl::BufferKind::Uniform, bytesOf(blocks::LodestarMaterial{}));
     return std::unique_ptr<Renderer>(new Renderer(std::move(state)));
 }
 
 void Renderer::setEnvironment(std::string source, lighting::Cubemap base) {
-    state_->source = std::move(source);
-    state_->base = std::move(base);
-    state_->prepared = {};
-    state_->tentMips = {};
-    state_->boxMips = {};
-    state_->irradiance = {};
+    state_->environment = GpuEnvironment(std::move(source), std::move(base));
 }
 
-core::Result<Frame> Renderer::render(const View& view, const RenderSettings& settings) {
-    LODESTAR_EXPECT(!state_->base.empty(), "an environment is set before a frame is drawn");
-    LODESTAR_EXPECT(settings.width > 0 && settings.height > 0 && settings.samplesPerSide > 0,
-                    "a picture has a size");
-    State& state = *state_;
-    Frame frame;
-    const gl::WorkCounters before = state.device.counters();
-    auto start = Clock::now();
-    plan::PlanInput input = planInput(state.scene, view, settings,
-                                      {state.source, state.base.width(),
-                                       state.prepared == lighting::PreparedParts{}});
-    input.alreadyPrepared = state.prepared;
-    frame.plan = plan::plan(input);
-    frame.timesMs["plan"] = millisecondsSince(start);
-    start = Clock::now();
-    if (auto prepared = state.prepareEnvironment(frame.plan.prepare); !prepared) {
-        return prepared.error();
-    }
-    frame.timesMs["prepare"] = millisecondsSince(start);
-    start = Clock::now();
-    if (auto compiled = state.compilePrograms(frame.plan, settings); !compiled) {
-        return compiled.error();
-    }
-    frame.timesMs["compile"] = millisecondsSince(start);
+core::Result<void> Renderer::State::drawPicture(const View& view, const RenderSettings& settings,
+                                                Frame& frame) {
     blocks::LodestarFrame block{};
     block.cameraPosition =
         view.perspective ? glm::vec4(view.position, 1.0f) : glm::vec4(view.towardsViewer, 0.0f);
-    state.fillEnvironment(settings, block);
-    setLights(state.scene, block);
+    environment.describe(settings, block);
+    setLights(scene, block);
     frame.radiance = core::Image(settings.width, settings.height, 4);
     const int side = std::max(1, kTileSide / settings.samplesPerSide);
-    double drawMs = 0.0;
-    double readMs = 0.0;
     for (int y = 0; y < settings.height; y += side) {
         for (int x = 0; x < settings.width; x += side) {
             const glm::ivec4 tile(x, y, std::min(side, settings.width - x),
                                   std::min(side, settings.height - y));
-            const int width = tile.z * settings.samplesPerSide;
-            const int height = tile.w * settings.samplesPerSide;
-            if (state.target.width() != width || state.target.height() != height) {
-                auto made = gl::Framebuffer::make(state.device, width, height);
+            const glm::ivec2 samples = glm::ivec2(tile.z, tile.w) * settings.samplesPerSide;
+            if (target.width() != samples.x || target.height() != samples.y) {
+                auto made = gl::Framebuffer::make(device, samples.x, samples.y);
                 if (!made) {
                     return made.error();
                 }
-                state.target = std::move(*made);
+                target = std::move(*made);
             }
             block.clipFromWorld =
                 tileFromClip(tile, settings.width, settings.height) * view.clipFromWorld();
             block.worldFromClip = glm::mat4(glm::inverse(glm::dmat4(block.clipFromWorld)));
-            state.timer.begin();
-            state.drawTile(frame.plan, settings, block);
-            state.timer.end();
-            drawMs += state.timer.milliseconds();
-            start = Clock::now();
-            frame.repairedPixels += resolve(state.target.read(), settings.samplesPerSide, {x, y}, frame.radiance);
-            readMs += millisecondsSince(start);
+            timer.begin();
+            drawTile(frame.plan, settings, block);
+            timer.end();
+            frame.timesMs["draw"] += timer.milliseconds();
+            const auto start = Clock::now();
+            frame.repairedPixels +=
+                resolve(target.read(), settings.samplesPerSide, {x, y}, frame.radiance);
+            frame.timesMs["read"] += millisecondsSince(start);
         }
     }
-    frame.timesMs["draw"] = drawMs;
-    frame.timesMs["read"] = readMs;
+    return {};
+}
+
+core::Result<Frame> Renderer::render(const View& view, const RenderSettings& settings) {
+    State& state = *state_;
+    LODESTAR_EXPECT(!state.environment.empty(), "an environment is set before a frame is drawn");
+    LODESTAR_EXPECT(settings.width > 0 && settings.height > 0 && settings.samplesPerSide > 0,
+                    "a picture has a size");
+    Frame frame;
+    const gl::WorkCounters before = state.device.counters();
+    const auto timed = [&frame](const char* step, auto&& work) {
+        const auto start = Clock::now();
+        auto result = work();
+        frame.timesMs[step] = millisecondsSince(start);
+        return result;
+    };
+    frame.plan = timed("plan", [&] {
+        plan::PlanInput input = planInput(state.scene, view, settings, state.environment.view());
+        input.alreadyPrepared = state.environment.prepared();
+        return plan::plan(input);
+    });
+    auto prepared = timed(
+        "prepare", [&] { return state.environment.prepare(state.device, frame.plan.prepare); });
+    if (!prepared) {
+        return prepared.error();
+    }
+    auto compiled = timed("compile", [&] { return state.compilePrograms(frame.plan, settings); });
+    if (!compiled) {
+        return compiled.error();
+    }
+    if (auto drawn = state.drawPicture(view, settings, frame); !drawn) {
+        return drawn.error();
+    }
     frame.counters = gl::difference(state.device.counters(), before);
     return frame;
 }

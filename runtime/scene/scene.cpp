@@ -60,7 +60,9 @@ void Bounds::add(const Bounds& other) {
     }
 }
 
-float Bounds::radius() const { return empty() ? 0.0f : 0.5f * glm::length(high - low); }
+float Bounds::radius() const {
+    return empty() ? 0.0f : 0.5f * glm::length(high - low);
+}
 
 Bounds transformed(const Bounds& bounds, const glm::mat4& transform) {
     Bounds result;
@@ -131,9 +133,9 @@ Scene buildScene(io::GltfFile file, int sceneIndex) {
 void updateTransforms(Scene& scene) {
     for (Node& node : scene.nodes) {
         node.worldFromNode =
-            node.parent >= 0
-                ? scene.nodes[static_cast<std::size_t>(node.parent)].worldFromNode * node.parentFromNode
-                : node.parentFromNode;
+            node.parent >= 0 ? scene.nodes[static_cast<std::size_t>(node.parent)].worldFromNode *
+                                   node.parentFromNode
+                             : node.parentFromNode;
     }
 }
 

@@ -20,16 +20,20 @@ struct Field {
     std::size_t offset;
 };
 
-#define LODESTAR_FIELD(block, member) Field{#member, offsetof(scene::blocks::block, member)}
+#define LODESTAR_FIELD(block, member)                                                              \
+    Field {                                                                                        \
+#member, offsetof(scene::blocks::block, member)                                            \
+    }
 
 gl::Defines everything(int specular, int diffuse, bool on) {
     gl::Defines defines;
     for (const char* name :
-         {"LODESTAR_NORMALS", "LODESTAR_TANGENTS", "LODESTAR_VERTEX_COLORS", "LODESTAR_BASE_COLOR_TEXTURE",
-          "LODESTAR_METALLIC_ROUGHNESS_TEXTURE", "LODESTAR_NORMAL_TEXTURE", "LODESTAR_OCCLUSION_TEXTURE",
-          "LODESTAR_EMISSIVE_TEXTURE", "LODESTAR_BLINN_PHONG", "LODESTAR_EXPONENT_TEXTURE",
-          "LODESTAR_ALPHA_MASK", "LODESTAR_ALPHA_BLEND", "LODESTAR_PUNCTUAL_LIGHTS",
-          "LODESTAR_ENVIRONMENT", "LODESTAR_BIAS_VERTEX"}) {
+         {"LODESTAR_NORMALS", "LODESTAR_TANGENTS", "LODESTAR_VERTEX_COLORS",
+          "LODESTAR_BASE_COLOR_TEXTURE", "LODESTAR_METALLIC_ROUGHNESS_TEXTURE",
+          "LODESTAR_NORMAL_TEXTURE", "LODESTAR_OCCLUSION_TEXTURE", "LODESTAR_EMISSIVE_TEXTURE",
+          "LODESTAR_BLINN_PHONG", "LODESTAR_EXPONENT_TEXTURE", "LODESTAR_ALPHA_MASK",
+          "LODESTAR_ALPHA_BLEND", "LODESTAR_PUNCTUAL_LIGHTS", "LODESTAR_ENVIRONMENT",
+          "LODESTAR_BIAS_VERTEX"}) {
         defines.emplace_back(name, on ? "1" : "0");
     }
     defines.emplace_back("LODESTAR_SPECULAR", std::to_string(specular));
@@ -53,19 +57,29 @@ void expectOffset(unsigned program, const Field& field) {
 }
 
 TEST_F(Blocks, OffsetsAreTheDrivers) {
-    auto program = gl::Program::make(device(), "host/mesh.vert", "host/mesh.frag", everything(3, 1, true));
+    auto program =
+        gl::Program::make(device(), "host/mesh.vert", "host/mesh.frag", everything(3, 1, true));
     ASSERT_TRUE(program.ok()) << program.error().message();
-    const Field fields[] = {
-        LODESTAR_FIELD(LodestarFrame, clipFromWorld),  LODESTAR_FIELD(LodestarFrame, worldFromClip),
-        LODESTAR_FIELD(LodestarFrame, cameraPosition), LODESTAR_FIELD(LodestarFrame, environmentCube),
-        LODESTAR_FIELD(LodestarFrame, irradianceCube), LODESTAR_FIELD(LodestarFrame, sh9),
-        LODESTAR_FIELD(LodestarFrame, lightCount),     LODESTAR_FIELD(LodestarFrame, lightPosition),
-        LODESTAR_FIELD(LodestarFrame, lightColor),     LODESTAR_FIELD(LodestarFrame, lightDirection),
-        LODESTAR_FIELD(LodestarFrame, lightCone),      LODESTAR_FIELD(LodestarDraw, worldFromModel),
-        LODESTAR_FIELD(LodestarDraw, normalFromModel), LODESTAR_FIELD(LodestarMaterial, baseColor),
-        LODESTAR_FIELD(LodestarMaterial, emissive),    LODESTAR_FIELD(LodestarMaterial, surface),
-        LODESTAR_FIELD(LodestarMaterial, diffuse),     LODESTAR_FIELD(LodestarMaterial, f0),
-        LODESTAR_FIELD(LodestarMaterial, uvSets),      LODESTAR_FIELD(LodestarMaterial, uvSets2)};
+    const Field fields[] = {LODESTAR_FIELD(LodestarFrame, clipFromWorld),
+                            LODESTAR_FIELD(LodestarFrame, worldFromClip),
+                            LODESTAR_FIELD(LodestarFrame, cameraPosition),
+                            LODESTAR_FIELD(LodestarFrame, environmentCube),
+                            LODESTAR_FIELD(LodestarFrame, irradianceCube),
+                            LODESTAR_FIELD(LodestarFrame, sh9),
+                            LODESTAR_FIELD(LodestarFrame, lightCount),
+                            LODESTAR_FIELD(LodestarFrame, lightPosition),
+                            LODESTAR_FIELD(LodestarFrame, lightColor),
+                            LODESTAR_FIELD(LodestarFrame, lightDirection),
+                            LODESTAR_FIELD(LodestarFrame, lightCone),
+                            LODESTAR_FIELD(LodestarDraw, worldFromModel),
+                            LODESTAR_FIELD(LodestarDraw, normalFromModel),
+                            LODESTAR_FIELD(LodestarMaterial, baseColor),
+                            LODESTAR_FIELD(LodestarMaterial, emissive),
+                            LODESTAR_FIELD(LodestarMaterial, surface),
+                            LODESTAR_FIELD(LodestarMaterial, diffuse),
+                            LODESTAR_FIELD(LodestarMaterial, f0),
+                            LODESTAR_FIELD(LodestarMaterial, uvSets),
+                            LODESTAR_FIELD(LodestarMaterial, uvSets2)};
     for (const Field& field : fields) {
         expectOffset(program->id(), field);
     }
@@ -79,7 +93,8 @@ TEST_F(Blocks, EveryEstimatorVariantCompiles) {
                 for (auto& [name, value] : defines) {
                     value = name == "LODESTAR_ENVIRONMENT" ? "1" : value;
                 }
-                auto program = gl::Program::make(device(), "host/mesh.vert", "host/mesh.frag", defines);
+                auto program =
+                    gl::Program::make(device(), "host/mesh.vert", "host/mesh.frag", defines);
                 EXPECT_TRUE(program.ok()) << program.error().message();
             }
         }
@@ -99,8 +114,9 @@ TEST_F(Blocks, EverySingleFeatureCompiles) {
 
 TEST_F(Blocks, ABrokenShaderNamesItself) {
     expectErrors();
-    auto program = gl::Program::makeFromText(device(), "#version 330 core\nvoid main() { gl_Position = vec4(0.0); }",
-                                             "#version 330 core\nvoid main() { nonsense; }", "broken");
+    auto program = gl::Program::makeFromText(
+        device(), "#version 330 core\nvoid main() { gl_Position = vec4(0.0); }",
+        "#version 330 core\nvoid main() { nonsense; }", "broken");
     ASSERT_FALSE(program.ok());
     EXPECT_NE(program.error().message().find("broken"), std::string::npos);
     EXPECT_NE(program.error().message().find("nonsense"), std::string::npos);

@@ -15,7 +15,8 @@ namespace {
 
 class Furnace : public testing::GlTest {};
 
-constexpr float kExponents[] = {0.0f, 0.5f, 1.0f, 4.0f, 32.0f, 256.0f, 4096.0f, 65536.0f, 1e6f, 1e7f};
+constexpr float kExponents[] = {0.0f,   0.5f,    1.0f,     4.0f, 32.0f,
+                                256.0f, 4096.0f, 65536.0f, 1e6f, 1e7f};
 
 /// Largest |radiance - 1| over covered pixels; fails if nothing is covered.
 float worstError(const core::Image& image) {
@@ -38,13 +39,16 @@ TEST_F(Furnace, EveryEstimatorAndExponentShowsOne) {
         scene::buildScene(testing::fileOf(testing::sphere(), testing::blinnPhong({}, {}, 0.0f)));
     auto renderer = scene::Renderer::make(device(), scene);
     ASSERT_TRUE(renderer.ok()) << renderer.error().message();
-    (*renderer)->setEnvironment("constant", lighting::cubeFromAnalytic(lighting::ConstantEnvironment{}, 64));
+    (*renderer)->setEnvironment("constant",
+                                lighting::cubeFromAnalytic(lighting::ConstantEnvironment{}, 64));
     scene::RenderSettings settings;
     settings.width = settings.height = 96;
     settings.backdrop = false;
-    const std::pair<const char*, const char*> estimators[] = {
-        {"tent", "irradiance"}, {"mip", "sh9"}, {"mip-floor", "lowest-mip"}, {"bias:3.5", "bias:5"},
-        {"bias:2:vertex", "irradiance"}};
+    const std::pair<const char*, const char*> estimators[] = {{"tent", "irradiance"},
+                                                              {"mip", "sh9"},
+                                                              {"mip-floor", "lowest-mip"},
+                                                              {"bias:3.5", "bias:5"},
+                                                              {"bias:2:vertex", "irradiance"}};
     for (const auto& [specular, diffuse] : estimators) {
         settings.specular = *lighting::parseEstimator(specular, lighting::Term::Glossy);
         settings.diffuse = *lighting::parseEstimator(diffuse, lighting::Term::Diffuse);
@@ -55,10 +59,11 @@ TEST_F(Furnace, EveryEstimatorAndExponentShowsOne) {
                 auto frame = (*renderer)->render(testing::frontView(scene), settings);
                 ASSERT_TRUE(frame.ok()) << frame.error().message();
                 EXPECT_EQ(frame->repairedPixels, 0u);
-                // Half floats hold 1 exactly; what is left is float rounding of (1 - F) + F and, for
-                // sh9, of nine terms: 16 operations of 2^-24 each, far below 1e-5.
+                // Half floats hold 1 exactly; what is left is float rounding of (1 - F) + F and,
+                // for sh9, of nine terms: 16 operations of 2^-24 each, far below 1e-5.
                 EXPECT_LT(worstError(frame->radiance), 1e-5f)
-                    << specular << "/" << diffuse << " exponent " << exponent << (mirror ? " f0 1" : " k_L 1");
+                    << specular << "/" << diffuse << " exponent " << exponent
+                    << (mirror ? " f0 1" : " k_L 1");
             }
         }
     }

@@ -22,35 +22,40 @@ protected:
         scene::RenderSettings settings;
         settings.width = settings.height = 128;
         settings.backdrop = backdrop;
-        settings.materialOverride = scene::MaterialOverride{glm::vec3(0.0f), glm::vec3(1.0f), exponent};
+        settings.materialOverride =
+            scene::MaterialOverride{glm::vec3(0.0f), glm::vec3(1.0f), exponent};
         auto frame = (*renderer)->render(view, settings);
         EXPECT_TRUE(frame.ok());
         return std::move(frame->radiance);
     }
 };
 
-const lighting::FacesEnvironment kFaces{{glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1),
-                                         glm::dvec3(1, 1, 0), glm::dvec3(0, 1, 1), glm::dvec3(1, 0, 1)}};
+const lighting::FacesEnvironment kFaces{{glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0),
+                                         glm::dvec3(0, 0, 1), glm::dvec3(1, 1, 0),
+                                         glm::dvec3(0, 1, 1), glm::dvec3(1, 0, 1)}};
 
 TEST_F(Orientation, BackdropShowsTheFaceThatTheViewLooksAt) {
     const scene::Scene empty = scene::buildScene(io::GltfFile{});
     const lighting::Cubemap map = lighting::cubeFromAnalytic(kFaces, 32);
-    const glm::vec3 directions[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    const glm::vec3 directions[] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
+                                    {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
     for (std::size_t face = 0; face < 6; ++face) {
         scene::CameraRequest request;
         request.eye = glm::vec3(0.0f);
         request.target = directions[face];
-        const core::Image image = render(empty, *scene::chooseView(empty, request, 1.0f), true, map);
+        const core::Image image =
+            render(empty, *scene::chooseView(empty, request, 1.0f), true, map);
         const float* center = image.at(64, 64);
         for (int c = 0; c < 3; ++c) {
-            EXPECT_FLOAT_EQ(center[c], static_cast<float>(kFaces.radiance[face][c])) << "face " << face;
+            EXPECT_FLOAT_EQ(center[c], static_cast<float>(kFaces.radiance[face][c]))
+                << "face " << face;
         }
     }
 }
 
 TEST_F(Orientation, MirrorSphereReflectsUnflipped) {
-    // Seen from +Z, a mirror ball shows +X on its right, +Y at its top, +Z (behind the viewer) in the
-    // middle: reflections at 45 degrees of slope look sideways.
+    // Seen from +Z, a mirror ball shows +X on its right, +Y at its top, +Z (behind the viewer) in
+    // the middle: reflections at 45 degrees of slope look sideways.
     const scene::Scene scene =
         scene::buildScene(testing::fileOf(testing::sphere(), testing::blinnPhong({}, {}, 0.0f)));
     scene::CameraRequest request;
@@ -70,15 +75,16 @@ TEST_F(Orientation, MirrorSphereReflectsUnflipped) {
                                                      {pixel(0, 0), 4}};
     for (const auto& [value, face] : expected) {
         for (int c = 0; c < 3; ++c) {
-            EXPECT_FLOAT_EQ(value[c], static_cast<float>(kFaces.radiance[static_cast<std::size_t>(face)][c]))
+            EXPECT_FLOAT_EQ(value[c],
+                            static_cast<float>(kFaces.radiance[static_cast<std::size_t>(face)][c]))
                 << "face " << face;
         }
     }
 }
 
 TEST_F(Orientation, GpuFetchesTheTexelThatTheCpuFetches) {
-    // Random texels, random directions: the driver's seamless trilinear fetch against ours. Hardware
-    // may quantise filter weights to 8 bits: 2^-8 of the range a level, two levels.
+    // Random texels, random directions: the driver's seamless trilinear fetch against ours.
+    // Hardware may quantise filter weights to 8 bits: 2^-8 of the range a level, two levels.
     lighting::Cubemap map(16, 5);
     std::uint32_t state = 7;
     const auto random = [&] {

@@ -23,14 +23,15 @@ protected:
     std::unique_ptr<scene::Renderer> renderer(const scene::Scene& scene, int width = 64) {
         auto made = scene::Renderer::make(device(), scene);
         EXPECT_TRUE(made.ok());
-        (*made)->setEnvironment("sky", lighting::cubeFromAnalytic(lighting::ClearSkyEnvironment{}, width));
+        (*made)->setEnvironment("sky",
+                                lighting::cubeFromAnalytic(lighting::ClearSkyEnvironment{}, width));
         return std::move(*made);
     }
 };
 
 TEST_F(Rendering, SameFrameTwiceIsBitIdentical) {
-    const scene::Scene scene =
-        scene::buildScene(testing::fileOf(testing::sphere(), testing::blinnPhong({0.5, 0.2, 0.1}, glm::vec3(0.04f), 40.0f)));
+    const scene::Scene scene = scene::buildScene(testing::fileOf(
+        testing::sphere(), testing::blinnPhong({0.5, 0.2, 0.1}, glm::vec3(0.04f), 40.0f)));
     const scene::View view = testing::frontView(scene);
     auto first = renderer(scene)->render(view, small());
     auto second = renderer(scene)->render(view, small());
@@ -41,8 +42,8 @@ TEST_F(Rendering, SameFrameTwiceIsBitIdentical) {
 TEST_F(Rendering, TilesJoinWithoutSeams) {
     // Two tiles high, against the same picture drawn in parts that fit one tile: every pixel whose
     // footprint does not touch the border is the same sample, up to the tile's projection rounding.
-    const scene::Scene scene =
-        scene::buildScene(testing::fileOf(testing::sphere(), testing::blinnPhong({0.7, 0.7, 0.7}, glm::vec3(0.04f), 8.0f)));
+    const scene::Scene scene = scene::buildScene(testing::fileOf(
+        testing::sphere(), testing::blinnPhong({0.7, 0.7, 0.7}, glm::vec3(0.04f), 8.0f)));
     const scene::View view = testing::frontView(scene);
     auto made = renderer(scene, 32);
     auto tall = made->render(view, small(16, 2600));
@@ -52,7 +53,8 @@ TEST_F(Rendering, TilesJoinWithoutSeams) {
         float largest = 0.0f;
         for (int x = 0; x < 16; ++x) {
             for (int c = 0; c < 3; ++c) {
-                largest = std::max(largest, std::abs(tall->radiance.at(x, y)[c] - tall->radiance.at(x, y - 1)[c]));
+                largest = std::max(
+                    largest, std::abs(tall->radiance.at(x, y)[c] - tall->radiance.at(x, y - 1)[c]));
             }
         }
         return largest;
@@ -66,8 +68,8 @@ TEST_F(Rendering, TilesJoinWithoutSeams) {
 }
 
 TEST_F(Rendering, SecondFramePreparesAndCompilesNothing) {
-    const scene::Scene scene =
-        scene::buildScene(testing::fileOf(testing::sphere(), testing::blinnPhong({0.5, 0.5, 0.5}, glm::vec3(0.04f), 8.0f)));
+    const scene::Scene scene = scene::buildScene(testing::fileOf(
+        testing::sphere(), testing::blinnPhong({0.5, 0.5, 0.5}, glm::vec3(0.04f), 8.0f)));
     auto made = renderer(scene);
     const scene::View view = testing::frontView(scene);
     auto first = made->render(view, small());
@@ -78,14 +80,14 @@ TEST_F(Rendering, SecondFramePreparesAndCompilesNothing) {
     EXPECT_FALSE(second->plan.runs("tent-mips"));
     EXPECT_FALSE(second->plan.runs("irradiance"));
     EXPECT_EQ(second->counters.shaderCompilations, 0u);
-    EXPECT_EQ(second->counters.draws, 2u); // the sphere and the backdrop
+    EXPECT_EQ(second->counters.draws, 2u);          // the sphere and the backdrop
     EXPECT_LT(second->counters.uploadBytes, 8192u); // uniform blocks only
     EXPECT_EQ(second->counters.stateQueries, 0u);
 }
 
 TEST_F(Rendering, WhatNothingVisibleCallsForIsNotDone) {
-    const scene::Scene scene =
-        scene::buildScene(testing::fileOf(testing::sphere(), testing::blinnPhong({0.5, 0.5, 0.5}, glm::vec3(0.04f), 8.0f)));
+    const scene::Scene scene = scene::buildScene(testing::fileOf(
+        testing::sphere(), testing::blinnPhong({0.5, 0.5, 0.5}, glm::vec3(0.04f), 8.0f)));
     auto made = renderer(scene);
     scene::CameraRequest away;
     away.eye = glm::vec3(0.0f, 0.0f, 3.0f);
@@ -105,12 +107,13 @@ TEST_F(Rendering, WhatNothingVisibleCallsForIsNotDone) {
 
 TEST_F(Rendering, RadianceAboveHalfFloatsRangeIsKept) {
     // A mirror under a constant 1e6, and a lamp of 1e9 in the dark.
-    const scene::Scene scene =
-        scene::buildScene(testing::fileOf(testing::square(), testing::blinnPhong({}, glm::vec3(1.0f), 1e7f)));
+    const scene::Scene scene = scene::buildScene(
+        testing::fileOf(testing::square(), testing::blinnPhong({}, glm::vec3(1.0f), 1e7f)));
     auto made = renderer(scene);
     for (const double radiance : {1e6, 1e9}) {
-        made->setEnvironment("bright", lighting::cubeFromAnalytic(
-                                           lighting::ConstantEnvironment{glm::dvec3(radiance)}, 16));
+        made->setEnvironment(
+            "bright",
+            lighting::cubeFromAnalytic(lighting::ConstantEnvironment{glm::dvec3(radiance)}, 16));
         auto frame = made->render(testing::frontView(scene), small());
         ASSERT_TRUE(frame.ok());
         EXPECT_NEAR(frame->radiance.at(48, 48)[0] / radiance, 1.0, 1e-3);

@@ -26,7 +26,9 @@ inline io::GltfPrimitive sphere(int rings = 64, int segments = 128) {
             primitive.uvs[0].emplace_back(u, v);
         }
     }
-    const auto at = [&](int i, int j) { return static_cast<std::uint32_t>(j * (segments + 1) + i); };
+    const auto at = [&](int i, int j) {
+        return static_cast<std::uint32_t>(j * (segments + 1) + i);
+    };
     for (int j = 0; j < rings; ++j) {
         for (int i = 0; i < segments; ++i) {
             for (std::uint32_t index : {at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i, j),

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "scene/gpu_environment.h"
+
+#include "scene/gpu_scene.h"
+
+namespace lodestar::scene {
+
+using lighting::EstimatorKind;
+
+plan::EnvironmentView GpuEnvironment::view() const {
+    return {source_, base_.width(), prepared_ == lighting::PreparedParts{}};
+}
+
+core::Result<void> GpuEnvironment::prepare(gl::Device& device,
+                                           const lighting::PreparedParts& parts) {
+    if (parts == lighting::PreparedParts{}) {
+        return {};
+    }
+    const lighting::PreparedEnvironment made = lighting::prepare(base_, parts);
+    struct Upload {
+        bool lighting::PreparedParts::*part;
+        const lighting::Cubemap& map;
+        gl::Texture& texture;
+        const char* label;
+    };
+    const Upload uploads[] = {
+        {&lighting::PreparedParts::tentMips, made.tentMips, tentMips_, "tent mips"},
+        {&lighting::PreparedParts::boxMips, made.boxMips, boxMips_, "box mips"},
+        {&lighting::PreparedParts::irradiance, made.irradiance, irradiance_, "irradiance"},
+    };
+    for (const Upload& upload : uploads) {
+        if (parts.*upload.part) {
+            auto cube = gl::Texture::makeCube(device, upload.map, upload.label);
+            if (!cube) {
+                return cube.error();
+            }
+            upload.texture = std::move(*cube);
+            prepared_.*upload.part = true;
+        }
+    }
+    if (parts.sh9) {
+        sh9_ = made.sh9;
+        prepared_.sh9 = true;
+    }
+    return {};
+}
+
+/// The chain that the glossy estimator reads; for the backdrop any chain will do.
+const gl::Texture& GpuEnvironment::glossyCube(const RenderSettings& settings) const {
+    const bool box = settings.specular.kind != EstimatorKind::Tent;
+    return (box && boxMips_) || !tentMips_ ? boxMips_ : tentMips_;
+}
+
+const gl::Texture* GpuEnvironment::diffuseCube(const RenderSettings& settings) const {
+    switch (settings.diffuse.kind) {
+    case EstimatorKind::Sh9:
+        return nullptr;
+    case EstimatorKind::LowestMip:
+    case EstimatorKind::Bias:
+    case EstimatorKind::BiasVertex:
+        return &boxMips_;
+    default:
+        return &irradiance_;
+    }
+}
+
+void GpuEnvironment::describe(const RenderSettings& settings, blocks::LodestarFrame& block) const {
+    const auto describe = [](const gl::Texture& texture, float leastLevel) {
+        return glm::vec4(static_cast<float>(texture.width()),
+                         static_cast<float>(texture.levelCount() - 1), leastLevel, texture.scale());
+    };
+    block.environmentCube = describe(glossyCube(settings), settings.specular.leastLevel);
+    if (const gl::Texture* cube = diffuseCube(settings)) {
+        block.irradianceCube = describe(*cube, settings.diffuse.leastLevel);
+    }
+    for (std::size_t i = 0; i < sh9_.size(); ++i) {
+        block.sh9[i] = glm::vec4(sh9_[i], 0.0f);
+    }
+}
+
+void GpuEnvironment::bind(const RenderSettings& settings) const {
+    if (const gl::Texture& cube = glossyCube(settings)) {
+        cube.bind(kEnvironmentUnit);
+    }
+    if (const gl::Texture* cube = diffuseCube(settings); cube != nullptr && *cube) {
+        cube->bind(kIrradianceUnit);
+    }
+}
+
+} // namespace lodestar::scene

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+//
+// The distant environment on the GPU: the parts that plans have asked for so far.
+#pragma once
+
+#include <string>
+
+#include "gl/texture.h"
+#include "host/blocks.glsl"
+#include "lighting/environment.h"
+#include "scene/renderer.h"
+
+namespace lodestar::scene {
+
+class GpuEnvironment {
+public:
+    GpuEnvironment() = default;
+    GpuEnvironment(std::string source, lighting::Cubemap base)
+        : source_(std::move(source)), base_(std::move(base)) {}
+
+    [[nodiscard]] bool empty() const { return base_.empty(); }
+    /// What the planner is told of it.
+    [[nodiscard]] plan::EnvironmentView view() const;
+    [[nodiscard]] const lighting::PreparedParts& prepared() const { return prepared_; }
+
+    /// Makes and uploads parts. @errors NoOpenGl if the driver has no memory for one
+    [[nodiscard]] core::Result<void> prepare(gl::Device& device,
+                                             const lighting::PreparedParts& parts);
+
+    /// Fills the block's part that describes the cubes the settings read.
+    void describe(const RenderSettings& settings, blocks::LodestarFrame& block) const;
+    /// Binds those cubes to their units.
+    void bind(const RenderSettings& settings) const;
+
+private:
+    [[nodiscard]] const gl::Texture& glossyCube(const RenderSettings& settings) const;
+    [[nodiscard]] const gl::Texture* diffuseCube(const RenderSettings& settings) const;
+
+    std::string source_;
+    lighting::Cubemap base_;
+    lighting::PreparedParts prepared_;
+    lighting::Sh9Coefficients sh9_{};
+    gl::Texture tentMips_, boxMips_, irradiance_;
+};
+
+} // namespace lodestar::scene

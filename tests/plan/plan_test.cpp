@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+//
+// Given this scene, exactly these effects. No GL.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "plan/effect_plan.h"
+
+namespace lodestar::plan {
+namespace {
+
+using lighting::Estimator;
+using lighting::EstimatorKind;
+
+DrawView ball() {
+    DrawView draw;
+    draw.subject = "ball";
+    draw.features = bit(Feature::Normals);
+    return draw;
+}
+
+PlanInput scene(std::vector<DrawView> draws) {
+    PlanInput input;
+    input.draws = std::move(draws);
+    input.environment = {"studio.hdr", 64, true};
+    input.backdrop = false;
+    return input;
+}
+
+const Effect& effect(const EffectPlan& plan, const std::string& name) {
+    for (const Effect& candidate : plan.effects) {
+        if (candidate.effect == name) {
+            return candidate;
+        }
+    }
+    ADD_FAILURE() << "no effect " << name;
+    static const Effect none;
+    return none;
+}
+
+TEST(Plan, GlossyAndDiffuseCallForTentMipsAndIrradiance) {
+    const EffectPlan result = plan(scene({ball()}));
+    EXPECT_EQ(result.prepare, (lighting::PreparedParts{false, true, false, true}));
+    EXPECT_TRUE(result.runs("tent-mips"));
+    EXPECT_TRUE(result.runs("irradiance"));
+    EXPECT_FALSE(result.runs("box-mips"));
+    EXPECT_FALSE(result.runs("sh9"));
+    EXPECT_FALSE(result.runs("backdrop"));
+    EXPECT_FALSE(result.runs("punctual-lights"));
+    // A chain of 64, 32 .. 1 texels a side: 6 (4^7 - 1) / 3.
+    EXPECT_EQ(effect(result, "tent-mips").cost.texelsWritten, 6u * ((1u << 14) - 1u) / 3u);
+}
+
+TEST(Plan, OneTableOfSurfacesAndParts) {
+    struct Case {
+        const char* name;
+        bool diffuse, glossy, visible, backdrop;
+        EstimatorKind specular, lambert;
+        lighting::PreparedParts parts; // box, tent, sh9, irradiance
+    };
+    const Case cases[] = {
+        {"matte",
+         true,
+         false,
+         true,
+         false,
+         EstimatorKind::Tent,
+         EstimatorKind::Irradiance,
+         {false, false, false, true}},
+        {"metal",
+         false,
+         true,
+         true,
+         false,
+         EstimatorKind::Tent,
+         EstimatorKind::Irradiance,
+         {false, true, false, false}},
+        {"hidden", true, true, false, false, EstimatorKind::Tent, EstimatorKind::Irradiance, {}},
+        {"hidden, backdrop",
+         true,
+         true,
+         false,
+         true,
+         EstimatorKind::Tent,
+         EstimatorKind::Irradiance,
+         {false, true, false, false}},
+        {"published",
+         true,
+         true,
+         true,
+         true,
+         EstimatorKind::Mip,
+         EstimatorKind::LowestMip,
+         {true, false, false, false}},
+        {"floor and sh9",
+         true,
+         true,
+         true,
+         false,
+         EstimatorKind::MipFloor,
+         EstimatorKind::Sh9,
+         {true, false, true, false}},
+        {"tent and lowest",
+         true,
+         true,
+         true,
+         false,
+         EstimatorKind::Tent,
+         EstimatorKind::LowestMip,
+         {true, true, false, false}},
+        {"bias twice",
+         true,
+         true,
+         true,
+         false,
+         EstimatorKind::Bias,
+         EstimatorKind::Bias,
+         {true, false, false, false}},
+    };
+    for (const Case& c : cases) {
+        DrawView draw = ball();
+        draw.diffuse = c.diffuse;
+        draw.glossy = c.glossy;
+        draw.visible = c.visible;
+        PlanInput input = scene({draw});
+        input.backdrop = c.backdrop;
+        input.specular.kind = c.specular;
+        input.diffuse.kind = c.lambert;
+        EXPECT_EQ(plan(input).prepare, c.parts) << c.name;
+    }
+}
+
+TEST(Plan, NothingIsMadeTwice) {
+    PlanInput input = scene({ball()});
+    input.alreadyPrepared = plan(input).prepare;
+    input.environment.changed = false;
+    const EffectPlan second = plan(input);
+    EXPECT_EQ(second.prepare, lighting::PreparedParts{});
+    EXPECT_EQ(effect(second, "tent-mips").decision, Decision::Skip);
+    EXPECT_EQ(effect(second, "tent-mips").cost.texelsWritten, 0u);
+    input.environment.changed = true;
+    EXPECT_TRUE(plan(input).runs("tent-mips"));
+}
+
+TEST(Plan, OpaqueFirstThenBlendedFromTheBack) {
+    DrawView nearGlass = ball(), farGlass = ball(), solid = ball(), hidden = ball();
+    nearGlass.blended = farGlass.blended = true;
+    nearGlass.distance = 1.0f;
+    farGlass.distance = 5.0f;
+    hidden.visible = false;
+    const EffectPlan result = plan(scene({nearGlass, hidden, farGlass, solid}));
+    EXPECT_EQ(result.drawOrder, (std::vector<std::size_t>{3, 2, 0}));
+    EXPECT_EQ(result.drawFeatures.size(), 3u);
+}
+
+TEST(Plan, EmptySceneCallsForNothing) {
+    const EffectPlan result = plan(scene({}));
+    for (const Effect& each : result.effects) {
+        EXPECT_EQ(each.decision, Decision::Skip) << each.effect;
+        EXPECT_FALSE(each.reason.empty()) << each.effect;
+    }
+    EXPECT_TRUE(result.drawOrder.empty());
+}
+
+TEST(Plan, LightsAddTheirFeatureToVisibleDrawsOnly) {
+    PlanInput input = scene({ball()});
+    EXPECT_FALSE(has(plan(input).drawFeatures.at(0), Feature::PunctualLights));
+    input.lightCount = 2;
+    EXPECT_TRUE(has(plan(input).drawFeatures.at(0), Feature::PunctualLights));
+    EXPECT_TRUE(plan(input).runs("punctual-lights"));
+    input.draws[0].visible = false;
+    EXPECT_FALSE(plan(input).runs("punctual-lights"));
+}
+
+// The plan is pure: the same input gives the same plan, and every visible draw is drawn once.
+RC_GTEST_PROP(PlanProperty, PureAndComplete, ()) {
+    std::vector<DrawView> draws(*rc::gen::inRange<std::size_t>(0, 40));
+    for (DrawView& draw : draws) {
+        draw.features = *rc::gen::inRange<Features>(0, 1u << 14);
+        draw.visible = *rc::gen::arbitrary<bool>();
+        draw.blended = *rc::gen::arbitrary<bool>();
+        draw.glossy = *rc::gen::arbitrary<bool>();
+        draw.diffuse = *rc::gen::arbitrary<bool>();
+        draw.distance = static_cast<float>(*rc::gen::inRange(-10, 10));
+    }
+    const PlanInput input = scene(draws);
+    const EffectPlan first = plan(input);
+    const EffectPlan second = plan(input);
+    RC_ASSERT(first.drawOrder == second.drawOrder);
+    RC_ASSERT(first.drawFeatures == second.drawFeatures);
+    RC_ASSERT(first.prepare == second.prepare);
+    std::vector<int> drawn(draws.size(), 0);
+    for (std::size_t index : first.drawOrder) {
+        ++drawn[index];
+    }
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+        RC_ASSERT(drawn[i] == (draws[i].visible ? 1 : 0));
+    }
+}
+
+} // namespace
+} // namespace lodestar::plan
