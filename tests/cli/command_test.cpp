@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+//
+// The command line as a contract: exit statuses, one-line errors, JSON that parses.
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "support/picture.h"
+#include "support/run.h"
+
+namespace lodestar::testing {
+namespace {
+
+/// The smallest scene: no meshes.
+std::string emptyScene(const TemporaryFolder& folder) {
+    const std::string path = folder.file("empty.gltf");
+    std::ofstream(path) << R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[]}],"scene":0})";
+    return path;
+}
+
+struct BadCall {
+    const char* name;
+    std::vector<std::string> arguments;
+    int status;
+    const char* mentions;
+};
+
+TEST(CommandLine, BadCallsSayOneLineAndTheirStatus) {
+    const TemporaryFolder folder;
+    const std::string scene = emptyScene(folder);
+    const std::string out = folder.file("out.png");
+    const BadCall calls[] = {
+        {"no subcommand", {}, 2, "subcommand"},
+        {"unknown subcommand", {"paint"}, 2, ""},
+        {"no output", {"render", scene}, 2, "output"},
+        {"bad extension", {"render", scene, "-o", folder.file("x.gif")}, 2, ".exr"},
+        {"bad size", {"render", scene, "-o", out, "--size", "0x10"}, 2, "--size"},
+        {"huge size", {"render", scene, "-o", out, "--size", "99999x10"}, 2, "--size"},
+        {"bad estimator", {"render", scene, "-o", out, "--specular", "shiny"}, 2, "tent"},
+        {"cpu estimator", {"render", scene, "-o", out, "--specular", "reference"}, 2, "sample"},
+        {"bad field of view", {"render", scene, "-o", out, "--fov", "180"}, 2, "--fov"},
+        {"bad eye", {"render", scene, "-o", out, "--eye", "1,2"}, 2, "--eye"},
+        {"bad override",
+         {"render", scene, "-o", out, "--override-material", "f0=2,0,0"},
+         2,
+         "[0, 1]"},
+        {"unknown override",
+         {"render", scene, "-o", out, "--override-material", "gloss=1"},
+         2,
+         "gloss"},
+        {"bad samples", {"render", scene, "-o", out, "--samples", "3"}, 2, "samples"},
+        {"missing camera", {"render", scene, "-o", out, "--camera", "north"}, 2, "north"},
+        {"missing scene", {"render", folder.file("none.gltf"), "-o", out}, 3, "none.gltf"},
+        {"missing panorama",
+         {"render", scene, "-o", out, "--environment", folder.file("none.hdr")},
+         3,
+         "none.hdr"},
+        {"bad analytic",
+         {"render", scene, "-o", out, "--environment", "constant:1,x,1"},
+         2,
+         "constant"},
+        {"no folder", {"render", scene, "-o", folder.file("no/such/folder/out.png")}, 5, "out.png"},
+        {"no folder for stats",
+         {"render", scene, "-o", out, "--stats", folder.file("no/stats.json")},
+         5,
+         "stats.json"},
+        {"bad exponent",
+         {"sample", "--environment", "constant:1,1,1", "--lobe", "phong", "--exponent", "-1",
+          "--direction", "0,0,1", "--estimator", "tent"},
+         2,
+         "exponent"},
+        {"zero direction",
+         {"sample", "--environment", "constant:1,1,1", "--lobe", "phong", "--exponent", "1",
+          "--direction", "0,0,0", "--estimator", "tent"},
+         2,
+         "direction"},
+        {"check of nothing", {"check", folder.file("none.glb")}, 3, "none.glb"},
+    };
+    for (const BadCall& call : calls) {
+        SCOPED_TRACE(call.name);
+        const RunResult run = runLodestar(call.arguments);
+        EXPECT_EQ(run.status, call.status) << run.err;
+        ASSERT_EQ(run.errorLines().size(), 1u) << run.err;
+        EXPECT_EQ(run.errorLines()[0].rfind("lodestar: ", 0), 0u);
+        EXPECT_NE(run.errorLines()[0].find(call.mentions), std::string::npos) << run.err;
+    }
+}
+
+TEST(CommandLine, NoUsableOpenGlIsStatusFour) {
+    const TemporaryFolder folder;
+    const RunResult run = runLodestar({"render", emptyScene(folder), "-o", folder.file("x.png")},
+                                      {"MESA_GL_VERSION_OVERRIDE=2.1"});
+    EXPECT_EQ(run.status, 4);
+    ASSERT_EQ(run.errorLines().size(), 1u) << run.err;
+    EXPECT_NE(run.err.find("3.3"), std::string::npos) << run.err;
+}
+
+TEST(CommandLine, OpenGl33IsEnough) {
+    const TemporaryFolder folder;
+    const RunResult run =
+        runLodestar({"render", emptyScene(folder), "-o", folder.file("x.png"), "--size", "32x32"},
+                    {"MESA_GL_VERSION_OVERRIDE=3.3"});
+    EXPECT_EQ(run.status, 0) << run.err;
+}
+
+TEST(CommandLine, HelpTeachesWithAnExample) {
+    for (const char* command : {"render", "plan", "sample", "check"}) {
+        const RunResult run = runLodestar({command, "--help"});
+        EXPECT_EQ(run.status, 0) << command;
+        EXPECT_NE(run.out.find("Example"), std::string::npos) << command;
+    }
+    EXPECT_EQ(runLodestar({"--help"}).status, 0);
+    EXPECT_EQ(runLodestar({"--version"}).status, 0);
+}
+
+TEST(CommandLine, PlanIsJsonAndAgreesWithTheCountersOfRender) {
+    const TemporaryFolder folder;
+    const std::string scene = emptyScene(folder);
+    const RunResult planned = runLodestar({"plan", scene, "--environment", "gradient:0.1,1"});
+    ASSERT_EQ(planned.status, 0) << planned.err;
+    const nlohmann::json plan = nlohmann::json::parse(planned.out);
+    std::uint64_t draws = 0;
+    for (const nlohmann::json& effect : plan.at("effects")) {
+        EXPECT_TRUE(effect.at("decision") == "run" || effect.at("decision") == "skip");
+        EXPECT_FALSE(effect.at("reason").get<std::string>().empty());
+        draws +=
+            effect.at("decision") == "run" ? effect.at("cost").at("draws").get<std::uint64_t>() : 0;
+    }
+    const std::string stats = folder.file("stats.json");
+    const RunResult rendered =
+        runLodestar({"render", scene, "--environment", "gradient:0.1,1", "-o", folder.file("x.exr"),
+                     "--size", "48x32", "--frames", "3", "--stats", stats});
+    ASSERT_EQ(rendered.status, 0) << rendered.err;
+    std::ifstream file(stats);
+    const nlohmann::json report = nlohmann::json::parse(file);
+    ASSERT_EQ(report.at("frames").size(), 3u);
+    EXPECT_EQ(report.at("frames")[0].at("counters").at("draws"), draws);
+    EXPECT_EQ(report.at("frames")[2].at("counters").at("shader_compilations"), 0);
+    EXPECT_EQ(report.at("counters").at("gl_errors"), 0);
+    for (const char* key : {"passes", "texels_written", "uploads", "upload_bytes",
+                            "program_switches", "state_queries", "probe_faces", "texture_bytes"}) {
+        EXPECT_TRUE(report.at("counters").contains(key)) << key;
+    }
+    EXPECT_EQ(report.at("plan").at("effects").size(), plan.at("effects").size());
+    EXPECT_EQ(report.at("estimators").at("specular"), "tent");
+}
+
+TEST(CommandLine, FramesAreNumbered) {
+    const TemporaryFolder folder;
+    const RunResult run = runLodestar({"render", emptyScene(folder), "-o", folder.file("f%04d.png"),
+                                       "--size", "16x16", "--frames", "2"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_TRUE(std::filesystem::exists(folder.file("f0000.png")));
+    EXPECT_TRUE(std::filesystem::exists(folder.file("f0001.png")));
+}
+
+TEST(CommandLine, ExrHoldsRadianceWhateverTheExposure) {
+    const TemporaryFolder folder;
+    const std::string scene = emptyScene(folder);
+    const RunResult run =
+        runLodestar({"render", scene, "--environment", "constant:3,2,1", "--exposure", "4", "-o",
+                     folder.file("x.exr"), "--size", "8x8"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const core::Image image = readPicture(folder.file("x.exr"));
+    EXPECT_FLOAT_EQ(image.at(4, 4)[0], 3.0f);
+    EXPECT_FLOAT_EQ(image.at(4, 4)[2], 1.0f);
+    EXPECT_FLOAT_EQ(image.at(4, 4)[3], 1.0f);
+}
+
+} // namespace
+} // namespace lodestar::testing
