@@ -230,12 +230,24 @@ Cubemap cubeOf(const FacesEnvironment& e, int width) {
         width, [&](const Cell& texel) { return e.radiance[static_cast<std::size_t>(texel.face)]; });
 }
 
+/// Whether one point in the middle of a texel stands for all of it to 1e-4: where the sky varies
+/// over no less than a tenth of a radian, away from the sun and from the haze just below the
+/// horizon.
+bool isEven(const glm::dvec3& d, double cosineToSun, double halfSide) {
+    return halfSide <= 1.0 / 128.0 && cosineToSun < 0.96 && (d.y > 0.01 || d.y < -0.25);
+}
+
 Cubemap cubeOf(const ClearSkyEnvironment&, int width) {
-    const Cap sun(clearSkySunDirection(), clearSkySunRadius());
+    const glm::dvec3 towardsSun = clearSkySunDirection();
     const glm::dvec3 sunRadiance = clearSkySunRadiance();
+    const Cap sun(towardsSun, clearSkySunRadius());
+    const int cuts = cutsFor(width);
     return filled(width, [&](const Cell& texel) {
-        return smoothMean(texel, cutsFor(width), clearSkyRadiance) +
-               sunRadiance * sun.coverage(texel);
+        const glm::dvec3 d = directionOf(texel.face, texel.u, texel.v);
+        if (isEven(d, glm::dot(d, towardsSun), texel.halfSide)) {
+            return clearSkyRadiance(d);
+        }
+        return smoothMean(texel, cuts, clearSkyRadiance) + sunRadiance * sun.coverage(texel);
     });
 }
 

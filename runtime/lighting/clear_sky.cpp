@@ -26,23 +26,28 @@ const glm::dvec3 kHorizonNearSun{1.02, 0.94, 0.80};
 const glm::dvec3 kHorizonAway{0.66, 0.74, 0.82};
 const glm::dvec3 kGroundReflectance{0.30, 0.27, 0.235};
 
-/// max(c, 0)^s
-double lobe(double c, double s) {
-    return c > 0.0 ? std::exp(s * std::log(c)) : 0.0;
-}
-
 glm::dvec3 horizonColour(double cosineToSun) {
     const double t = 0.5 + 0.5 * cosineToSun;
     return kHorizonAway * (1.0 - t) + kHorizonNearSun * t;
 }
 
-/// Light scattered forward about the sun: a wide warm glow, a halo, and the aureole next to the
-/// disc.
+/// Light scattered forward about the sun: cosine powers 6, 60, 900 and 12000 for a wide warm glow,
+/// a halo, and the aureole next to the disc. Multiplied out, since this is most of the sky's cost.
 glm::dvec3 glow(double cosineToSun) {
-    return glm::dvec3(0.34, 0.30, 0.24) * lobe(cosineToSun, 6.0) +
-           glm::dvec3(0.80, 0.72, 0.58) * lobe(cosineToSun, 60.0) +
-           glm::dvec3(3.2, 3.0, 2.5) * lobe(cosineToSun, 900.0) +
-           glm::dvec3(40.0, 37.0, 31.0) * lobe(cosineToSun, 12000.0);
+    if (cosineToSun <= 0.0) {
+        return glm::dvec3(0.0);
+    }
+    const double c2 = cosineToSun * cosineToSun;
+    const double c6 = c2 * c2 * c2;
+    const double c12 = c6 * c6;
+    const double c24 = c12 * c12;
+    const double c60 = c24 * c24 * c12;
+    glm::dvec3 sum = glm::dvec3(0.34, 0.30, 0.24) * c6 + glm::dvec3(0.80, 0.72, 0.58) * c60;
+    if (c60 > 0.25) { // below, the narrow ones are under 1e-9 of their peaks
+        sum += glm::dvec3(3.2, 3.0, 2.5) * std::pow(c60, 15.0) +
+               glm::dvec3(40.0, 37.0, 31.0) * std::pow(c60, 200.0);
+    }
+    return sum;
 }
 
 glm::dvec3 skyRadiance(double height, double cosineToSun) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/contract.h"
+#include "lighting/float4.h"
 #include "lighting/solid_angle.h"
 
 namespace lodestar::lighting {
@@ -20,7 +21,22 @@ Cubemap withFullChain(const Cubemap& base) {
     return chain;
 }
 
-/// Plain means of the fine texels that a coarse one overlaps, within each face.
+/// Plain 2x2 means within each face. @pre an even fine width
+void reduceBoxEven(Cubemap& map, int coarseLevel) {
+    const int n = map.width(coarseLevel - 1);
+    const int rows = kFaces * (n / 2);
+    const Float4* upper = asFloat4(map.level(coarseLevel - 1).data());
+    Float4* out = asFloat4(map.level(coarseLevel).data());
+    for (int j = 0; j < rows; ++j, upper += 2 * n, out += n / 2) {
+        const Float4* lower = upper + n;
+        for (int i = 0; i < n / 2; ++i) {
+            out[i] =
+                ((upper[2 * i] + upper[2 * i + 1]) + (lower[2 * i] + lower[2 * i + 1])) * 0.25f;
+        }
+    }
+}
+
+/// Plain means of the fine texels that a coarse one overlaps, within each face, for any width.
 void reduceBox(Cubemap& map, int coarseLevel) {
     const int n = map.width(coarseLevel - 1);
     const int m = map.width(coarseLevel);
@@ -41,6 +57,31 @@ void reduceBox(Cubemap& map, int coarseLevel) {
                     }
                 }
                 map.texel(face, i, j, coarseLevel) = sum * scale;
+            }
+        }
+    }
+}
+
+/// 2x2 means weighted by solid angle, within each face; four fine solid angles are a coarse one's.
+/// @pre an even fine width
+void reduceSolidAngleEven(Cubemap& map, int coarseLevel) {
+    const int n = map.width(coarseLevel - 1);
+    const int m = n / 2;
+    const auto fine = texelTable(n);
+    const auto coarse = texelTable(m);
+    for (int j = 0; j < m; ++j) {
+        const float* upperOmega = fine->solidAngles(2 * j);
+        const float* lowerOmega = fine->solidAngles(2 * j + 1);
+        const float* omega = coarse->solidAngles(j);
+        for (int face = 0; face < kFaces; ++face) {
+            const Float4* upper = asFloat4(&map.texel(face, 0, 2 * j, coarseLevel - 1));
+            const Float4* lower = upper + n;
+            Float4* out = asFloat4(&map.texel(face, 0, j, coarseLevel));
+            for (int i = 0; i < m; ++i) {
+                const int x = 2 * i;
+                out[i] = ((upper[x] * upperOmega[x] + upper[x + 1] * upperOmega[x + 1]) +
+                          (lower[x] * lowerOmega[x] + lower[x + 1] * lowerOmega[x + 1])) /
+                         omega[i];
             }
         }
     }
@@ -74,7 +115,7 @@ OverlapSolidAngles overlapSolidAngles(const AxisTaps& tx, const AxisTaps& ty, in
     return overlap;
 }
 
-/// Means weighted by solid angle, within each face.
+/// Means weighted by solid angle, within each face, for any width.
 void reduceSolidAngle(Cubemap& map, int coarseLevel) {
     const int n = map.width(coarseLevel - 1);
     const int m = map.width(coarseLevel);
@@ -126,7 +167,11 @@ glm::dvec4 sphereMean(const Cubemap& map, int level) {
 Cubemap boxMips(const Cubemap& base) {
     Cubemap chain = withFullChain(base);
     for (int k = 1; k < chain.levelCount(); ++k) {
-        reduceBox(chain, k);
+        if (chain.width(k - 1) % 2 == 0) {
+            reduceBoxEven(chain, k);
+        } else {
+            reduceBox(chain, k);
+        }
     }
     return chain;
 }
@@ -134,7 +179,11 @@ Cubemap boxMips(const Cubemap& base) {
 Cubemap solidAngleMips(const Cubemap& base) {
     Cubemap chain = withFullChain(base);
     for (int k = 1; k < chain.levelCount(); ++k) {
-        reduceSolidAngle(chain, k);
+        if (chain.width(k - 1) % 2 == 0) {
+            reduceSolidAngleEven(chain, k);
+        } else {
+            reduceSolidAngle(chain, k);
+        }
     }
     return chain;
 }

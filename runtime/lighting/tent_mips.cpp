@@ -14,13 +14,7 @@
 #include "lighting/float4.h"
 #include "lighting/mips.h"
 #include "lighting/solid_angle.h"
-
-// The inner loops are compiled twice and chosen by the processor when the program starts.
-#if defined(__x86_64__) && defined(__ELF__)
-#define LODESTAR_VECTOR_CLONES __attribute__((target_clones("arch=haswell", "default")))
-#else
-#define LODESTAR_VECTOR_CLONES
-#endif
+#include "lighting/vector_clones.h"
 
 namespace lodestar::lighting {
 
@@ -28,12 +22,11 @@ namespace {
 
 constexpr int kFaces = 6;
 
-typedef float Float8 __attribute__((vector_size(32), aligned(4), may_alias));
-
+/// Two weights, each four times: what multiplies two texels. A macro, because a function that
+/// returns eight floats has another calling convention where the processor lacks them.
 #define LODESTAR_PAIR(w)                                                                           \
-    Float8 {                                                                                       \
-        (w)[0], (w)[0], (w)[0], (w)[0], (w)[1], (w)[1], (w)[1], (w)[1]                             \
-    }
+    __builtin_shufflevector(Float4{(w)[0], (w)[0], (w)[0], (w)[0]},                                \
+                            Float4{(w)[1], (w)[1], (w)[1], (w)[1]}, 0, 1, 2, 3, 4, 5, 6, 7)
 const Float8* asFloat8(const Float4* texels) {
     return reinterpret_cast<const Float8*>(texels);
 }
@@ -77,21 +70,26 @@ void startTent(const Row& a, const Row& b, Carry& carry, int columns, Float4* su
 LODESTAR_VECTOR_CLONES
 void stepTent(const Row& a, const Row& b, Carry& carry, const float* reciprocals, Float4* out,
               int count, Float4* sums) {
-    const float wl = a.weights[0];
-    const float wr = a.weights[2 * count - 1];
-    const float vl = b.weights[0];
-    const float vr = b.weights[2 * count - 1];
+    const Float4* texelsA = a.texels; // copies: a store to a texel might change what a and b say
+    const Float4* texelsB = b.texels;
+    const float* weightsA = a.weights;
+    const float* weightsB = b.weights;
+    Float4* carriedTexels = carry.inside;
+    const float wl = weightsA[0];
+    const float wr = weightsA[2 * count - 1];
+    const float vl = weightsB[0];
+    const float vr = weightsB[2 * count - 1];
     Float4 before = carry.left + 3.0f * (a.left * wl) + b.left * vl;
     Float8 sumA = {};
     Float8 sumB = {};
     Float4 low = {};
     Float4 high = {};
     for (int i = 0; i < count; ++i) {
-        __builtin_prefetch(a.texels + 2 * i + 4 * count);
-        __builtin_prefetch(b.texels + 2 * i + 4 * count);
-        const Float8 fineA = *asFloat8(a.texels + 2 * i) * LODESTAR_PAIR(a.weights + 2 * i);
-        const Float8 fineB = *asFloat8(b.texels + 2 * i) * LODESTAR_PAIR(b.weights + 2 * i);
-        Float8& carried = *asFloat8(carry.inside + 2 * i);
+        __builtin_prefetch(texelsA + 2 * i + 4 * count); // two rows on: a row may end a page, where
+        __builtin_prefetch(texelsB + 2 * i + 4 * count); // the processor's own prefetch stops
+        const Float8 fineA = *asFloat8(texelsA + 2 * i) * LODESTAR_PAIR(weightsA + 2 * i);
+        const Float8 fineB = *asFloat8(texelsB + 2 * i) * LODESTAR_PAIR(weightsB + 2 * i);
+        Float8& carried = *asFloat8(carriedTexels + 2 * i);
         const Float8 column = carried + 3.0f * fineA + fineB;
         carried = fineA + 3.0f * fineB;
         sumA += fineA;
