@@ -234,7 +234,7 @@ Cubemap cubeOf(const FacesEnvironment& e, int width) {
 /// over no less than a tenth of a radian, away from the sun and from the haze just below the
 /// horizon.
 bool isEven(const glm::dvec3& d, double cosineToSun, double halfSide) {
-    return halfSide <= 1.0 / 128.0 && cosineToSun < 0.96 && (d.y > 0.01 || d.y < -0.25);
+    return halfSide <= 1.0 / 128.0 && cosineToSun < 0.96 && (d.y > 0.01 || d.y < -0.2);
 }
 
 Cubemap cubeOf(const ClearSkyEnvironment&, int width) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The numbers are chosen by eye and by energy, not measured: on a horizontal surface the sky gives
-// an irradiance of about 1 and the sun, at normal incidence, 3, so that a white surface in the sun
-// has a radiance near 0.9 and exposure 0 shows it just below the shoulder of the filmic curve.
+// The numbers are chosen by eye and by energy, not measured. On a horizontal surface the sky gives
+// an irradiance of 0.6, 0.8, 1.4 (r, g, b) and the sun, at normal incidence, 3.2, 3.0, 2.5: a white
+// surface in the sun has a radiance near 0.9, which exposure 0 shows just below the shoulder of the
+// filmic curve. The zenith is at 0.04, 0.12, 0.37, the horizon near 1, the ground near 0.17.
 #include "lighting/clear_sky.h"
 
 #include <algorithm>
@@ -21,10 +22,10 @@ constexpr double kSunRadius = 0.27 * kPi / 180.0;
 
 // Irradiance of the sun at normal incidence: luminance 3, warm.
 const glm::dvec3 kSunIrradiance{3.22, 2.99, 2.50};
-const glm::dvec3 kZenith{0.060, 0.150, 0.420};
-const glm::dvec3 kHorizonNearSun{1.02, 0.94, 0.80};
-const glm::dvec3 kHorizonAway{0.66, 0.74, 0.82};
-const glm::dvec3 kGroundReflectance{0.30, 0.27, 0.235};
+const glm::dvec3 kZenith{0.040, 0.115, 0.370};
+const glm::dvec3 kHorizonNearSun{1.15, 1.05, 0.87};
+const glm::dvec3 kHorizonAway{0.78, 0.86, 0.92};
+const glm::dvec3 kGroundReflectance{0.215, 0.188, 0.150};
 
 glm::dvec3 horizonColour(double cosineToSun) {
     const double t = 0.5 + 0.5 * cosineToSun;
@@ -42,7 +43,7 @@ glm::dvec3 glow(double cosineToSun) {
     const double c12 = c6 * c6;
     const double c24 = c12 * c12;
     const double c60 = c24 * c24 * c12;
-    glm::dvec3 sum = glm::dvec3(0.34, 0.30, 0.24) * c6 + glm::dvec3(0.80, 0.72, 0.58) * c60;
+    glm::dvec3 sum = glm::dvec3(0.40, 0.36, 0.28) * c6 + glm::dvec3(0.80, 0.72, 0.58) * c60;
     if (c60 > 0.25) { // below, the narrow ones are under 1e-9 of their peaks
         sum += glm::dvec3(3.2, 3.0, 2.5) * std::pow(c60, 15.0) +
                glm::dvec3(40.0, 37.0, 31.0) * std::pow(c60, 200.0);
@@ -54,7 +55,7 @@ glm::dvec3 skyRadiance(double height, double cosineToSun) {
     // A deep zenith that lightens towards the horizon, where the path through the air is longest;
     // molecules scatter as 1 + cos^2: darkest at right angles to the sun.
     const double low = 1.0 - height;
-    const double haze = 0.45 * low * low * low + 0.55 * std::exp(-9.0 * height);
+    const double haze = 0.55 * low * low * low + 0.45 * std::exp(-8.0 * height);
     const double molecules = 0.85 + 0.30 * cosineToSun * cosineToSun;
     return kZenith * (molecules * (1.0 - haze)) + horizonColour(cosineToSun) * haze +
            glow(cosineToSun);
@@ -110,8 +111,8 @@ glm::dvec3 clearSkyRadiance(const glm::dvec3& direction) {
     if (direction.y >= 0.0) {
         return sky;
     }
-    // Below, the ground fades into the haze of the horizon within about two degrees.
-    const double haze = std::exp(direction.y / 0.025);
+    // Below, the ground fades into the haze of the horizon within about five degrees.
+    const double haze = std::exp(direction.y / 0.06);
     return groundRadiance() * (1.0 - haze) + sky * haze;
 }
 
