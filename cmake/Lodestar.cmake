@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # One library per runtime folder: target lodestar-<name>, alias Lodestar::<Name>.
 add_library(lodestar-options INTERFACE)
 target_compile_features(lodestar-options INTERFACE cxx_std_20)
