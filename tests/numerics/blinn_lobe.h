@@ -4,6 +4,7 @@
 // lobe from it (LOOK-1 to LOOK-4): shared by the fit of the lookup conversion and its test.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -89,6 +90,15 @@ public:
         }
         const double squared = phongSquaredNorm - 2.0 * norm * product + squaredNorm_;
         return std::sqrt(std::max(squared / squaredNorm_, 0.0));
+    }
+
+    /// The integral of l T(l).
+    [[nodiscard]] glm::dvec3 meanDirection() const {
+        glm::dvec3 sum(0.0);
+        for (const Point& point : points_) {
+            sum += point.weight * glm::dvec3(point.l.x, 0.0, point.l.z); // even in y
+        }
+        return sum;
     }
 
     [[nodiscard]] glm::dvec3 view() const { return view_; }

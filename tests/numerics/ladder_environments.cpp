@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "numerics/ladder_environments.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
-#include <OpenImageIO/imageio.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "io/file.h"
+#include "io/image_file.h"
 #include "lodestar/cube.glsl"
 
 namespace lodestar::testing {
@@ -51,18 +53,17 @@ dvec3 faceContrastRadiance(const dvec3& d) {
 class Panorama {
 public:
     explicit Panorama(const std::filesystem::path& path) {
-        const auto input = OIIO::ImageInput::open(path.string());
-        if (!input) {
-            throw std::runtime_error("cannot read " + path.string());
+        const auto bytes = io::readFile(path);
+        const auto decoded =
+            bytes ? io::decodeImage(*bytes, 3) : core::Result<io::DecodedImage>(bytes.error());
+        if (!decoded) {
+            throw std::runtime_error(decoded.error().message());
         }
-        width_ = input->spec().width;
-        height_ = input->spec().height;
-        std::vector<float> all(
-            static_cast<std::size_t>(width_ * height_ * input->spec().nchannels));
-        input->read_image(OIIO::TypeDesc::FLOAT, all.data());
-        const auto channels = static_cast<std::size_t>(input->spec().nchannels);
-        for (std::size_t i = 0; i < all.size(); i += channels) {
-            pixels_.push_back(glm::max(dvec3(all[i], all[i + 1], all[i + 2]), dvec3(0.0)));
+        width_ = decoded->image.width();
+        height_ = decoded->image.height();
+        const std::vector<float>& stored = decoded->image.pixels();
+        for (std::size_t i = 0; i < stored.size(); i += 3) {
+            pixels_.push_back(glm::max(dvec3(stored[i], stored[i + 1], stored[i + 2]), dvec3(0.0)));
         }
     }
 

@@ -114,11 +114,18 @@ TEST(Ladder, SecondSet) {
     if (!std::filesystem::exists(panoramaPath("city"))) {
         GTEST_SKIP() << "needs the panoramas of blender-data, which this machine lacks";
     }
+    // The published set names a disc of 2 degrees, not where it stands. It stands here at the one
+    // other axis that the environments name, the gradient's, neither at a corner nor at a centre.
+    // The box mips' error depends on the place (0.72 at the corner, 0.35 to 0.43 at general ones);
+    // the panoramas alone, 0.469, are near the figure of the whole set.
     auto environments = panoramaSet({"city", "night", "studio", "sunrise"}, 128);
-    environments.push_back({"disc2", lampCube(kCornerAxis, 2.0, 128)});
+    environments.push_back({"disc2", lampCube(glm::dvec3(0.36, 0.48, 0.8), 2.0, 128)});
     const Ladder ladder(std::move(environments), 1024);
-    EXPECT_NEAR(ladder.report(EstimatorKind::Mip), 0.466, 0.1 * 0.466);
-    EXPECT_LE(ladder.report(EstimatorKind::Tent), 1.1 * 0.20);
+    const double mip = ladder.report(EstimatorKind::Mip);
+    const double tent = ladder.report(EstimatorKind::Tent);
+    EXPECT_NEAR(mip, 0.466, 0.1 * 0.466);
+    EXPECT_LE(tent, 1.1 * 0.20);
+    EXPECT_LE(tent, 0.5 * mip);
 }
 
 } // namespace lodestar::testing

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#define LODESTAR_DOUBLE_PRECISION
+#include "lodestar/cube.glsl"
+#include "lodestar/display.glsl"
+#include "lodestar/lobes.glsl"
+#include "lodestar/sh9.glsl"
+
+#include "numerics/dual_rows.h"
+#include "numerics/dual_rows_body.h"
+
+namespace lodestar::testing {
+
+std::vector<DualRow> doubleRows() {
+    return allRows();
+}
+
+} // namespace lodestar::testing
