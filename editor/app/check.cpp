@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+#include "app/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "app/command.h"
+#include "app/commands.h"
+#include "io/environment_file.h"
+#include "io/gltf.h"
+#include "io/image_file.h"
+#include "lighting/mips.h"
+#include "lodestar/display.glsl"
+
+namespace lodestar::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json warningsJson(const core::Tally& warnings) {
+    Json json = Json::object();
+    for (const auto& [rule, count] : warnings.counts()) {
+        json[rule] = count;
+    }
+    return json;
+}
+
+Json extensionsJson(const std::vector<std::string>& names) {
+    Json json = Json::array();
+    for (const std::string& name : names) {
+        json.push_back({{"name", name}, {"supported", io::isSupportedExtension(name)}});
+    }
+    return json;
+}
+
+Json texturesJson(const io::GltfFile& scene) {
+    Json json = Json::array();
+    for (const io::GltfTexture& texture : scene.textures) {
+        if (texture.image == io::kNone) {
+            json.push_back({{"image", nullptr}});
+            continue;
+        }
+        const core::Image& image = scene.images[static_cast<std::size_t>(texture.image)];
+        json.push_back(
+            {{"image", texture.image}, {"width", image.width()}, {"height", image.height()}});
+    }
+    return json;
+}
+
+struct MeshCounts {
+    std::size_t primitives = 0;
+    std::size_t vertices = 0;
+    std::size_t triangles = 0;
+    std::size_t lines = 0;
+    std::size_t points = 0;
+};
+
+MeshCounts countMeshes(const io::GltfFile& scene) {
+    MeshCounts counts;
+    for (const io::GltfMesh& mesh : scene.meshes) {
+        counts.primitives += mesh.primitives.size();
+        for (const io::GltfPrimitive& primitive : mesh.primitives) {
+            const std::size_t indices = primitive.indices.size();
+            counts.vertices += primitive.positions.size();
+            switch (primitive.topology) {
+            case io::Topology::Triangles:
+                counts.triangles += indices / 3;
+                break;
+            case io::Topology::Lines:
+                counts.lines += indices / 2;
+                break;
+            case io::Topology::Points:
+                counts.points += indices;
+                break;
+            }
+        }
+    }
+    return counts;
+}
+
+core::Result<Json> checkScene(const std::string& file) {
+    core::Result<io::GltfFile> scene = io::loadGltf(file);
+    if (!scene) {
+        return scene.error();
+    }
+    warn(scene->warnings, file);
+    const MeshCounts counts = countMeshes(*scene);
+    Json json;
+    json["file"] = file;
+    json["kind"] = "scene";
+    json["scenes"] = scene->scenes.size();
+    json["nodes"] = scene->nodes.size();
+    json["meshes"] = scene->meshes.size();
+    json["primitives"] = counts.primitives;
+    json["vertices"] = counts.vertices;
+    json["triangles"] = counts.triangles;
+    json["lines"] = counts.lines;
+    json["points"] = counts.points;
+    json["materials"] = scene->materials.size();
+    json["textures"] = texturesJson(*scene);
+    json["images"] = scene->images.size();
+    json["cameras"] = scene->cameras.size();
+    json["lights"] = scene->lights.size();
+    json["animations"] = scene->animationCount;
+    json["skins"] = scene->skinCount;
+    json["extensionsUsed"] = extensionsJson(scene->extensionsUsed);
+    json["extensionsRequired"] = extensionsJson(scene->extensionsRequired);
+    json["warnings"] = warningsJson(scene->warnings);
+    return json;
+}
+
+struct PixelFigures {
+    double least = std::numeric_limits<double>::infinity();
+    double largest = -std::numeric_limits<double>::infinity();
+    double sum[3] = {0.0, 0.0, 0.0};
+    std::size_t finiteCount[3] = {0, 0, 0};
+    std::size_t nonFinite = 0;
+};
+
+/// Over the colour channels; alpha is no radiance.
+PixelFigures pixelFigures(const core::Image& image) {
+    PixelFigures figures;
+    const std::size_t n = 3;
+    for (std::size_t i = 0; i < image.pixels().size(); ++i) {
+        const double value = image.pixels()[i];
+        if (!std::isfinite(value)) {
+            ++figures.nonFinite;
+            continue;
+        }
+        figures.least = std::min(figures.least, value);
+        figures.largest = std::max(figures.largest, value);
+        figures.sum[i % n] += value;
+        ++figures.finiteCount[i % n];
+    }
+    return figures;
+}
+
+const char* layoutName(io::EnvironmentLayout layout, io::DeclaredLayout declared) {
+    switch (layout) {
+    case io::EnvironmentLayout::LatLong:
+        return "lat-long";
+    case io::EnvironmentLayout::Cross:
+        return "cross";
+    case io::EnvironmentLayout::Strip:
+        return declared == io::DeclaredLayout::Cube ? "openexr-cube" : "strip";
+    case io::EnvironmentLayout::SixFiles:
+        return "six-files";
+    case io::EnvironmentLayout::Analytic:
+        break;
+    }
+    return "none";
+}
+
+/// The layout an environment is read by and its mean over the sphere; where it is none, the mean
+/// over the pixels.
+void addEnvironment(const std::string& file, const io::ImageInfo& info, const PixelFigures& figures,
+                    Json& json) {
+    const core::Result<io::LoadedEnvironment> environment = io::loadEnvironment(file);
+    const bool usable = environment.ok() && environment->layout != io::EnvironmentLayout::SixFiles;
+    json["layout"] = usable ? layoutName(environment->layout, info.layout) : "none";
+    Json mean = Json::array();
+    const glm::dvec4 sphere = usable ? lighting::sphereMean(environment->base, 0) : glm::dvec4(0.0);
+    for (glm::length_t c = 0; c < 3; ++c) {
+        const std::size_t count = figures.finiteCount[c];
+        mean.push_back(usable      ? sphere[c]
+                       : count > 0 ? figures.sum[c] / static_cast<double>(count)
+                                   : 0.0);
+    }
+    json["mean"] = std::move(mean);
+    if (usable) {
+        warn(environment->warnings, file);
+        json["warnings"] = warningsJson(environment->warnings);
+    } else {
+        json["warnings"] = Json::object();
+    }
+}
+
+core::Result<Json> checkImage(const std::string& file, const io::Bytes& bytes) {
+    core::Result<io::ImageInfo> info = io::imageInfo(bytes);
+    if (!info) {
+        return core::inFile(info.error(), file);
+    }
+    core::Result<io::DecodedImage> decoded = io::decodeImage(bytes, 3);
+    if (!decoded) {
+        return core::inFile(decoded.error(), file);
+    }
+    if (info->format == "png" || info->format == "jpeg") {
+        for (float& value : decoded->image.pixels()) {
+            value = shader::lodestar_linearFromSrgb(value);
+        }
+    }
+    const PixelFigures figures = pixelFigures(decoded->image);
+    const bool any = figures.largest >= figures.least;
+    Json json;
+    json["file"] = file;
+    json["kind"] = "image";
+    json["format"] = info->format;
+    json["width"] = info->width;
+    json["height"] = info->height;
+    json["channels"] = info->channels;
+    json["min"] = any ? Json(figures.least) : Json(nullptr);
+    json["max"] = any ? Json(figures.largest) : Json(nullptr);
+    json["nonFinite"] = figures.nonFinite;
+    addEnvironment(file, *info, figures, json);
+    return json;
+}
+
+/// Scenes are GLB or JSON text by their first byte that is not white space; the rest are images.
+bool looksLikeScene(const io::Bytes& bytes) {
+    const auto first = std::find_if(bytes.begin(), bytes.end(), [](unsigned char c) {
+        return c != ' ' && c != '\t' && c != '\r' && c != '\n';
+    });
+    const std::string magic = "glTF";
+    return (first != bytes.end() && *first == '{') ||
+           (bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin()));
+}
+
+bool endsLikeScene(const std::string& file) {
+    return file.ends_with(".gltf") || file.ends_with(".glb");
+}
+
+core::Result<Json> checkFile(const std::string& file) {
+    core::Result<io::Bytes> bytes = io::readFile(file);
+    if (!bytes) {
+        return bytes.error();
+    }
+    if (endsLikeScene(file) || looksLikeScene(*bytes)) {
+        return checkScene(file);
+    }
+    return checkImage(file, *bytes);
+}
+
+} // namespace
+
+int runCheck(const std::vector<std::string>& files) {
+    Json results = Json::array();
+    int status = 0;
+    for (const std::string& file : files) {
+        core::Result<Json> result = checkFile(file);
+        if (result) {
+            results.push_back(std::move(*result));
+            continue;
+        }
+        const core::Error& error = result.error();
+        // A failing call prints one line; the JSON says all.
+        status = status == 0 ? fail(error) : status;
+        Json json;
+        json["file"] = file;
+        json["error"] = error.what;
+        json["where"] = error.where;
+        results.push_back(std::move(json));
+    }
+    const Json& printed = files.size() == 1 ? results.front() : results;
+    // Names in a file need not be valid UTF-8; the output is.
+    std::printf("%s\n", printed.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+    return status;
+}
+
+void addCheck(CLI::App& app, int& status) {
+    auto files = std::make_shared<std::vector<std::string>>();
+    CLI::App* command =
+        app.add_subcommand("check", "Say what a scene or an image holds, or why it is refused");
+    command
+        ->add_option("FILE", *files, "glTF scenes (.gltf, .glb) and images (EXR, HDR, PNG, JPEG)")
+        ->required();
+    command->footer("Example: is this panorama sound?\n"
+                    "  lodestar check dusk.hdr");
+    command->callback([files, &status] { status = runCheck(*files); });
+}
+
+} // namespace lodestar::app

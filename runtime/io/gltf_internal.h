@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+//
+// The steps of loadGltf, one file each. A document is checked as JSON first, where every finding
+// has a JSON pointer; only then does tinygltf see a copy that holds nothing but checked, known
+// keys.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+#include <tiny_gltf.h>
+
+#include "core/result.h"
+#include "core/tally.h"
+#include "io/file.h"
+#include "io/gltf.h"
+
+namespace lodestar::io::detail {
+
+using Json = nlohmann::json;
+
+inline constexpr int kMaxJsonDepth = 64;
+inline constexpr std::size_t kMaxJsonValues = 2'000'000;
+inline constexpr std::size_t kMaxNodes = 100'000;
+inline constexpr int kMaxNodeDepth = 256;
+/// Buffers of one document, together.
+inline constexpr std::size_t kMaxBufferBytes = std::size_t{1} << 30;
+/// Decoded vertices and indices of one document, together.
+inline constexpr std::size_t kMaxGeometryBytes = std::size_t{1} << 30;
+/// Images of one document as float pixels, together; as much again may be read in encoded form.
+inline constexpr std::size_t kMaxImageBytes = std::size_t{2} << 30;
+/// Elements of an accessor that has no data (all zeros).
+inline constexpr std::size_t kMaxZeroElements = std::size_t{1} << 24;
+/// Where parseModel keeps a primitive's indices: tinygltf 2.7 refuses index accessors without data.
+inline constexpr const char* kIndicesAttribute = "_LODESTAR_INDICES";
+
+/// A document and the binary chunk that came with it.
+struct GltfSource {
+    Json document;
+    Bytes binary;
+    bool hasBinary = false;
+};
+
+/// Takes .gltf or .glb apart: lengths, JSON nesting and size first, then the JSON itself.
+[[nodiscard]] core::Result<GltfSource> readContainer(Bytes bytes);
+
+/// Version 2.x, no required extension that is not read.
+[[nodiscard]] core::Result<void> checkAsset(const Json& document);
+
+/// Types, ranges, array lengths and references of every key that is read.
+[[nodiscard]] core::Result<void> checkSchema(const Json& document);
+
+/// A copy with only the keys that checkSchema knows.
+[[nodiscard]] Json knownKeys(const Json& document);
+
+/// What one element of an accessor is.
+struct ElementLayout {
+    std::size_t components = 0;
+    std::size_t componentBytes = 0;
+    std::size_t bytes = 0; ///< with the padding of matrix columns
+};
+
+/// Layout by glTF's componentType and type; false for one that glTF does not have.
+[[nodiscard]] bool elementLayout(int componentType, const std::string& type, ElementLayout& layout);
+
+/// Buffer views within their buffers and accessors within their views.
+[[nodiscard]] core::Result<void> checkRanges(const Json& document,
+                                             const std::vector<Bytes>& buffers);
+
+/// Side files of one document.
+class SideFiles {
+public:
+    [[nodiscard]] static core::Result<SideFiles> open(const std::filesystem::path& document,
+                                                      const std::filesystem::path& assetRoot);
+    /// A data: URI's bytes or a file's below the asset root.
+    [[nodiscard]] core::Result<Bytes> read(const std::string& uri, std::size_t maxBytes) const;
+
+private:
+    explicit SideFiles(AssetRoot root) : root_(std::move(root)) {}
+    AssetRoot root_;
+    std::string prefix_; ///< from the root to the document's folder, "" or ending in "/"
+};
+
+/// Every buffer's bytes, cut to its byteLength.
+[[nodiscard]] core::Result<std::vector<Bytes>> loadBuffers(GltfSource& source,
+                                                           const SideFiles& files);
+
+/// Runs tinygltf over the checked document. Buffers are handed over in memory; it opens no file and
+/// sees no image.
+[[nodiscard]] core::Result<tinygltf::Model> parseModel(const Json& document,
+                                                       std::vector<Bytes> buffers);
+
+/// Spends a limit; shared by everything that decodes.
+class Budget {
+public:
+    explicit Budget(std::size_t bytes) : left_(bytes) {}
+    [[nodiscard]] bool spend(std::size_t bytes) {
+        if (bytes > left_) {
+            return false;
+        }
+        left_ -= bytes;
+        return true;
+    }
+
+private:
+    std::size_t left_;
+};
+
+/// What the converting steps share.
+struct GltfContext {
+    const Json& document;
+    const tinygltf::Model& model;
+    GltfFile& file;
+    Budget geometry{kMaxGeometryBytes};
+};
+
+/// An accessor as floats, element by element; normalised integers are mapped to [0, 1] or [-1, 1].
+[[nodiscard]] core::Result<std::vector<float>> readFloats(GltfContext& context, int accessor,
+                                                          bool forceNormalized = false);
+/// A scalar accessor of unsigned integers.
+[[nodiscard]] core::Result<std::vector<std::uint32_t>> readIndices(GltfContext& context,
+                                                                   int accessor);
+
+[[nodiscard]] core::Result<void> convertMeshes(GltfContext& context);
+/// Turns strips, loops and fans into lists, by glTF's mode 0 to 6.
+[[nodiscard]] std::vector<std::uint32_t> unrolled(const std::vector<std::uint32_t>& indices,
+                                                  int mode);
+/// Face normals for a triangle list that has none, vertices split.
+void makeFlat(GltfPrimitive& primitive);
+/// Zero and non-finite normals replaced by the mean of their triangles' normals.
+void repairNormals(GltfPrimitive& primitive, core::Tally& warnings);
+void repairTangents(GltfPrimitive& primitive, core::Tally& warnings);
+
+[[nodiscard]] core::Result<void> convertMaterials(GltfContext& context);
+void convertTextures(GltfContext& context);
+[[nodiscard]] core::Result<void> convertCameras(GltfContext& context);
+void convertLights(GltfContext& context);
+[[nodiscard]] core::Result<void> convertNodes(GltfContext& context);
+[[nodiscard]] core::Result<void> convertScenes(GltfContext& context);
+[[nodiscard]] core::Result<void> loadImages(GltfContext& context, const SideFiles& files,
+                                            bool decode);
+
+[[nodiscard]] inline std::string pointer(const std::string& parent, std::size_t index) {
+    return parent + "/" + std::to_string(index);
+}
+
+/// The member of an object, or null.
+[[nodiscard]] inline const Json* member(const Json& object, const char* key) {
+    if (!object.is_object()) {
+        return nullptr;
+    }
+    const auto found = object.find(key);
+    return found == object.end() ? nullptr : &*found;
+}
+
+/// An array member's elements; none where it is absent.
+[[nodiscard]] inline std::size_t memberSize(const Json& object, const char* key) {
+    const Json* found = member(object, key);
+    return found != nullptr && found->is_array() ? found->size() : 0;
+}
+
+} // namespace lodestar::io::detail

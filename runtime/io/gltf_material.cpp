@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: MIT
+//
+// Materials, textures and samplers. Source: glTF 2.0 specification, sections 3.8, 3.9, 5.26, and
+// KHR_materials_emissive_strength.
+#include <algorithm>
+#include <cmath>
+
+#include "io/gltf_internal.h"
+
+namespace lodestar::io::detail {
+namespace {
+
+constexpr float kMaxEmission = 1e9f;
+constexpr double kMaxExponent = 1e7;
+
+/// A value brought into [low, high], counted where it was not.
+float within(double value, double low, double high, const char* rule, core::Tally& warnings) {
+    const double repaired = std::clamp(value, low, high);
+    warnings.add(rule, repaired == value ? 0 : 1);
+    return static_cast<float>(repaired);
+}
+
+class MaterialReader {
+public:
+    MaterialReader(GltfContext& context, std::string at) : context_(context), at_(std::move(at)) {}
+
+    core::Result<GltfMaterial> read(const tinygltf::Material& source, const Json& json) {
+        core::Tally& warnings = context_.file.warnings;
+        const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+        GltfMaterial material;
+        material.name = source.name;
+        for (int c = 0; c < 4; ++c) {
+            material.baseColor[c] =
+                within(pbr.baseColorFactor[static_cast<std::size_t>(c)], 0.0, 1.0,
+                       "baseColorFactor outside [0, 1], clamped", warnings);
+        }
+        material.metallic = within(pbr.metallicFactor, 0.0, 1.0,
+                                   "metallicFactor outside [0, 1], clamped", warnings);
+        material.roughness = within(pbr.roughnessFactor, 0.0, 1.0,
+                                    "roughnessFactor outside [0, 1], clamped", warnings);
+        readEmission(source, json, material);
+        material.normalScale = static_cast<float>(source.normalTexture.scale);
+        material.occlusionStrength = within(source.occlusionTexture.strength, 0.0, 1.0,
+                                            "occlusion strength outside [0, 1], clamped", warnings);
+        material.baseColorTexture =
+            reference(pbr.baseColorTexture.index, pbr.baseColorTexture.texCoord);
+        material.metallicRoughnessTexture =
+            reference(pbr.metallicRoughnessTexture.index, pbr.metallicRoughnessTexture.texCoord);
+        material.normalTexture =
+            reference(source.normalTexture.index, source.normalTexture.texCoord);
+        material.occlusionTexture =
+            reference(source.occlusionTexture.index, source.occlusionTexture.texCoord);
+        material.emissiveTexture =
+            reference(source.emissiveTexture.index, source.emissiveTexture.texCoord);
+        readAlpha(source, material);
+        material.doubleSided = source.doubleSided;
+        const Json* extras = member(json, "extras");
+        const Json* own = extras == nullptr ? nullptr : member(*extras, "lodestar");
+        if (own != nullptr) {
+            at_ += "/extras/lodestar";
+            core::Result<GltfBlinnPhong> blinnPhong = readBlinnPhong(*own);
+            if (!blinnPhong) {
+                return blinnPhong.error();
+            }
+            material.blinnPhong = *blinnPhong;
+        }
+        return material;
+    }
+
+private:
+    void readEmission(const tinygltf::Material& source, const Json& json, GltfMaterial& material) {
+        double strength = 1.0;
+        const Json* extensions = member(json, "extensions");
+        const Json* own = extensions == nullptr
+                              ? nullptr
+                              : member(*extensions, "KHR_materials_emissive_strength");
+        const Json* given = own == nullptr ? nullptr : member(*own, "emissiveStrength");
+        if (given != nullptr) {
+            strength = given->get<double>();
+        }
+        for (int c = 0; c < 3; ++c) {
+            const double factor = source.emissiveFactor[static_cast<std::size_t>(c)];
+            context_.file.warnings.add("emissiveFactor above 1, kept", factor > 1.0 ? 1 : 0);
+            material.emissive[c] =
+                within(factor * strength, 0.0, static_cast<double>(kMaxEmission),
+                       "emission outside [0, 1e9], clamped", context_.file.warnings);
+        }
+    }
+
+    void readAlpha(const tinygltf::Material& source, GltfMaterial& material) {
+        material.alphaMode = source.alphaMode == "MASK"    ? AlphaMode::Mask
+                             : source.alphaMode == "BLEND" ? AlphaMode::Blend
+                                                           : AlphaMode::Opaque;
+        const bool known = material.alphaMode != AlphaMode::Opaque || source.alphaMode == "OPAQUE";
+        context_.file.warnings.add("alphaMode unknown, taken as OPAQUE", known ? 0 : 1);
+        material.alphaCutoff = within(source.alphaCutoff, 0.0, 3.0e38,
+                                      "alphaCutoff negative, set to 0", context_.file.warnings);
+    }
+
+    GltfTextureRef reference(int texture, int uvSet) {
+        core::Tally& warnings = context_.file.warnings;
+        if (texture == kNone) {
+            return {};
+        }
+        if (texture < 0 || static_cast<std::size_t>(texture) >= context_.model.textures.size()) {
+            warnings.add("texture that does not exist, left out");
+            return {};
+        }
+        if (uvSet < 0 || uvSet > 1) {
+            warnings.add("texCoord set beyond 1, set 0 is used");
+            uvSet = 0;
+        }
+        return {texture, uvSet};
+    }
+
+    [[nodiscard]] core::Error wrong(const std::string& what, const std::string& key) const {
+        return core::refused(what, key.empty() ? at_ : at_ + "/" + key);
+    }
+
+    /// Three numbers in [0, 1].
+    core::Result<std::optional<glm::vec3>> reflectance(const Json& json, const char* key) const {
+        const Json* value = member(json, key);
+        if (value == nullptr) {
+            return std::optional<glm::vec3>();
+        }
+        glm::vec3 color(0.0f);
+        bool good = value->is_array() && value->size() == 3;
+        for (std::size_t c = 0; good && c < 3; ++c) {
+            good = (*value)[c].is_number() && (*value)[c].get<double>() >= 0.0 &&
+                   (*value)[c].get<double>() <= 1.0;
+            if (good) {
+                color[static_cast<glm::length_t>(c)] = (*value)[c].get<float>();
+            }
+        }
+        if (!good) {
+            return wrong("must be three numbers in [0, 1]", key);
+        }
+        return std::optional<glm::vec3>(color);
+    }
+
+    core::Result<void> readExponent(const Json& json, GltfBlinnPhong& result) const {
+        const Json* value = member(json, "exponent");
+        if (value == nullptr) {
+            return {};
+        }
+        const bool mirror = value->is_string() && value->get<std::string>() == "mirror";
+        const bool number = value->is_number() && value->get<double>() >= 0.0 &&
+                            value->get<double>() <= kMaxExponent;
+        if (!mirror && !number) {
+            return wrong("must be a number in [0, 1e7] or \"mirror\"", "exponent");
+        }
+        result.exponent = mirror ? static_cast<float>(kMaxExponent) : value->get<float>();
+        return {};
+    }
+
+    core::Result<void> readExponentTexture(const Json& json, GltfBlinnPhong& result) {
+        if (const Json* value = member(json, "exponentTexture")) {
+            const Json* index = member(*value, "index");
+            const Json* set = member(*value, "texCoord");
+            const auto isIndex = [](const Json* j) {
+                return j->is_number_unsigned() && j->get<std::uint64_t>() < 0x7fffffff;
+            };
+            if (index == nullptr || !isIndex(index)) {
+                return wrong("must be an object with the index of a texture", "exponentTexture");
+            }
+            if (set != nullptr && !isIndex(set)) {
+                return wrong("must be the number of a set of texture coordinates",
+                             "exponentTexture/texCoord");
+            }
+            result.exponentTexture =
+                reference(index->get<int>(), set == nullptr ? 0 : set->get<int>());
+        }
+        if (const Json* value = member(json, "exponentEncoding")) {
+            const std::string name = value->is_string() ? value->get<std::string>() : std::string();
+            if (name != "exponent" && name != "log2") {
+                return wrong("must be \"exponent\" or \"log2\"", "exponentEncoding");
+            }
+            result.exponentEncoding =
+                name == "log2" ? ExponentEncoding::Log2 : ExponentEncoding::Exponent;
+        }
+        if (const Json* value = member(json, "exponentScale")) {
+            if (!value->is_number() ||
+                !(value->get<double>() >= 0.0 && value->get<double>() <= kMaxExponent)) {
+                return wrong("must be a number in [0, 1e7]", "exponentScale");
+            }
+            result.exponentScale = value->get<float>();
+        }
+        return {};
+    }
+
+    core::Result<GltfBlinnPhong> readBlinnPhong(const Json& json) {
+        if (!json.is_object()) {
+            return wrong("must be an object", "");
+        }
+        GltfBlinnPhong result;
+        core::Result<std::optional<glm::vec3>> diffuse = reflectance(json, "diffuse");
+        if (!diffuse) {
+            return diffuse.error();
+        }
+        core::Result<std::optional<glm::vec3>> f0 = reflectance(json, "f0");
+        if (!f0) {
+            return f0.error();
+        }
+        result.diffuse = *diffuse;
+        result.f0 = *f0;
+        core::Result<void> exponent = readExponent(json, result);
+        if (!exponent) {
+            return exponent.error();
+        }
+        core::Result<void> texture = readExponentTexture(json, result);
+        if (!texture) {
+            return texture.error();
+        }
+        return result;
+    }
+
+    GltfContext& context_;
+    std::string at_;
+};
+
+Wrap wrapOf(int value, core::Tally& warnings) {
+    switch (value) {
+    case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+        return Wrap::ClampToEdge;
+    case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+        return Wrap::MirroredRepeat;
+    default:
+        warnings.add("wrap mode unknown, taken as repeat",
+                     value == TINYGLTF_TEXTURE_WRAP_REPEAT ? 0 : 1);
+        return Wrap::Repeat;
+    }
+}
+
+void applyFilters(const tinygltf::Sampler& sampler, GltfTexture& texture, core::Tally& warnings) {
+    const int magnification = sampler.magFilter;
+    texture.magnification =
+        magnification == TINYGLTF_TEXTURE_FILTER_NEAREST ? Filter::Nearest : Filter::Linear;
+    bool known = magnification == -1 || magnification == TINYGLTF_TEXTURE_FILTER_NEAREST ||
+                 magnification == TINYGLTF_TEXTURE_FILTER_LINEAR;
+    const auto set = [&](Filter filter, MipFilter mip) {
+        texture.minification = filter;
+        texture.mip = mip;
+    };
+    switch (sampler.minFilter) {
+    case TINYGLTF_TEXTURE_FILTER_NEAREST:
+        set(Filter::Nearest, MipFilter::None);
+        break;
+    case TINYGLTF_TEXTURE_FILTER_LINEAR:
+        set(Filter::Linear, MipFilter::None);
+        break;
+    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
+        set(Filter::Nearest, MipFilter::Nearest);
+        break;
+    case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
+        set(Filter::Linear, MipFilter::Nearest);
+        break;
+    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
+        set(Filter::Nearest, MipFilter::Linear);
+        break;
+    case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR:
+    case -1:
+        set(Filter::Linear, MipFilter::Linear);
+        break;
+    default:
+        known = false;
+        break;
+    }
+    warnings.add("texture filter unknown, taken as linear", known ? 0 : 1);
+}
+
+} // namespace
+
+core::Result<void> convertMaterials(GltfContext& context) {
+    for (std::size_t i = 0; i < context.model.materials.size(); ++i) {
+        MaterialReader reader(context, pointer("/materials", i));
+        core::Result<GltfMaterial> material =
+            reader.read(context.model.materials[i], context.document["materials"][i]);
+        if (!material) {
+            return material.error();
+        }
+        context.file.materials.push_back(std::move(*material));
+    }
+    return {};
+}
+
+void convertTextures(GltfContext& context) {
+    core::Tally& warnings = context.file.warnings;
+    const std::size_t images = memberSize(context.document, "images");
+    for (const tinygltf::Texture& source : context.model.textures) {
+        GltfTexture texture;
+        if (source.source >= 0 && static_cast<std::size_t>(source.source) < images) {
+            texture.image = source.source;
+        } else {
+            warnings.add(source.source == -1
+                             ? "texture without an image, taken as white"
+                             : "texture whose image does not exist, taken as white");
+        }
+        if (source.sampler >= 0) {
+            const tinygltf::Sampler& sampler =
+                context.model.samplers[static_cast<std::size_t>(source.sampler)];
+            texture.wrapS = wrapOf(sampler.wrapS, warnings);
+            texture.wrapT = wrapOf(sampler.wrapT, warnings);
+            applyFilters(sampler, texture, warnings);
+        }
+        context.file.textures.push_back(texture);
+    }
+}
+
+} // namespace lodestar::io::detail

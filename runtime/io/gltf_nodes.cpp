@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+//
+// Nodes as a forest, and scenes. Source: glTF 2.0 specification, section 3.5.
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "io/gltf_internal.h"
+
+namespace lodestar::io::detail {
+namespace {
+
+bool finite(const glm::mat4& m) {
+    for (glm::length_t c = 0; c < 4; ++c) {
+        for (glm::length_t r = 0; r < 4; ++r) {
+            if (!std::isfinite(m[c][r])) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/// In double: scales near the ends of float leave a float determinant at 0 or infinity.
+bool singular(const glm::mat4& m) {
+    return std::abs(glm::determinant(glm::dmat3(glm::dmat4(m)))) == 0.0;
+}
+
+glm::vec3 vectorOr(const std::vector<double>& values, const glm::vec3& otherwise) {
+    return values.size() == 3
+               ? glm::vec3(static_cast<float>(values[0]), static_cast<float>(values[1]),
+                           static_cast<float>(values[2]))
+               : otherwise;
+}
+
+void readMatrix(const std::vector<double>& values, GltfNode& node, core::Tally& warnings) {
+    node.hasMatrix = true;
+    for (std::size_t i = 0; i < 16; ++i) {
+        node.matrix[static_cast<glm::length_t>(i / 4)][static_cast<glm::length_t>(i % 4)] =
+            static_cast<float>(values[i]);
+    }
+    const glm::vec4 bottom(node.matrix[0][3], node.matrix[1][3], node.matrix[2][3],
+                           node.matrix[3][3]);
+    if (bottom != glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)) {
+        warnings.add("node matrix with a last row other than 0 0 0 1, set to that");
+        for (glm::length_t c = 0; c < 4; ++c) {
+            node.matrix[c][3] = c == 3 ? 1.0f : 0.0f;
+        }
+    }
+}
+
+void readRotation(const std::vector<double>& values, GltfNode& node, core::Tally& warnings) {
+    if (values.size() != 4) {
+        return;
+    }
+    const double length = std::sqrt(values[0] * values[0] + values[1] * values[1] +
+                                    values[2] * values[2] + values[3] * values[3]);
+    if (!(length > 1e-20) || !std::isfinite(length)) {
+        warnings.add("node rotation of no length, taken as none");
+        return;
+    }
+    // The validator's own tolerance for unit quaternions.
+    constexpr double kUnitTolerance = 0.00769;
+    warnings.add("node rotation not of unit length, normalised",
+                 std::abs(length - 1.0) > kUnitTolerance ? 1 : 0);
+    node.rotation =
+        glm::quat(static_cast<float>(values[3] / length), static_cast<float>(values[0] / length),
+                  static_cast<float>(values[1] / length), static_cast<float>(values[2] / length));
+}
+
+core::Result<GltfNode> readNode(GltfContext& context, std::size_t index) {
+    const tinygltf::Node& source = context.model.nodes[index];
+    const Json& json = context.document["nodes"][index];
+    core::Tally& warnings = context.file.warnings;
+    GltfNode node;
+    node.name = source.name;
+    node.children.assign(source.children.begin(), source.children.end());
+    node.mesh = source.mesh;
+    node.camera = source.camera;
+    node.skin = source.skin;
+    const Json* extensions = member(json, "extensions");
+    const Json* punctual =
+        extensions == nullptr ? nullptr : member(*extensions, "KHR_lights_punctual");
+    const Json* light = punctual == nullptr ? nullptr : member(*punctual, "light");
+    if (light != nullptr) {
+        node.light = light->get<int>();
+    }
+    if (source.matrix.size() == 16) {
+        readMatrix(source.matrix, node, warnings);
+        const bool both =
+            json.contains("translation") || json.contains("rotation") || json.contains("scale");
+        warnings.add("node with a matrix and translation, rotation or scale: the matrix counts",
+                     both ? 1 : 0);
+    } else {
+        node.translation = vectorOr(source.translation, glm::vec3(0.0f));
+        node.scale = vectorOr(source.scale, glm::vec3(1.0f));
+        readRotation(source.rotation, node, warnings);
+        node.matrix = glm::translate(glm::mat4(1.0f), node.translation) *
+                      glm::mat4_cast(node.rotation) * glm::scale(glm::mat4(1.0f), node.scale);
+    }
+    if (!finite(node.matrix)) {
+        return core::refused("node's transform is not finite", pointer("/nodes", index));
+    }
+    warnings.add("node transform is singular, kept", singular(node.matrix) ? 1 : 0);
+    warnings.add("skin of a node, not applied", node.skin == kNone ? 0 : 1);
+    return node;
+}
+
+/// Fills in the parents; refuses a second one.
+core::Result<void> linkParents(std::vector<GltfNode>& nodes) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        for (std::size_t c = 0; c < nodes[i].children.size(); ++c) {
+            GltfNode& child = nodes[static_cast<std::size_t>(nodes[i].children[c])];
+            const std::string at = pointer(pointer("/nodes", i) + "/children", c);
+            if (static_cast<std::size_t>(nodes[i].children[c]) == i) {
+                return core::refused("node is its own child", at);
+            }
+            if (child.parent != kNone) {
+                return core::refused("node has two parents", at);
+            }
+            child.parent = static_cast<int>(i);
+        }
+    }
+    return {};
+}
+
+/// Walks down from every root: what is not reached is on a cycle. Not recursive: a chain of nodes
+/// may be as long as the file.
+core::Result<void> checkForest(const std::vector<GltfNode>& nodes) {
+    struct Visit {
+        int node;
+        int depth;
+        glm::mat4 worldFromNode;
+    };
+    std::vector<bool> reached(nodes.size());
+    std::vector<Visit> open;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (nodes[i].parent == kNone) {
+            open.push_back({static_cast<int>(i), 1, glm::mat4(1.0f)});
+        }
+    }
+    while (!open.empty()) {
+        const Visit visit = open.back();
+        open.pop_back();
+        const auto index = static_cast<std::size_t>(visit.node);
+        const std::string at = pointer("/nodes", index);
+        reached[index] = true;
+        if (visit.depth > kMaxNodeDepth) {
+            return core::refused(
+                "nodes are nested more than " + std::to_string(kMaxNodeDepth) + " deep", at);
+        }
+        const glm::mat4 world = visit.worldFromNode * nodes[index].matrix;
+        if (!finite(world)) {
+            return core::refused("node's transform in the world is not finite", at);
+        }
+        for (const int child : nodes[index].children) {
+            open.push_back({child, visit.depth + 1, world});
+        }
+    }
+    const auto lost = std::find(reached.begin(), reached.end(), false);
+    if (lost != reached.end()) {
+        return core::refused("node is its own ancestor (a cycle)",
+                             pointer("/nodes", static_cast<std::size_t>(lost - reached.begin())));
+    }
+    return {};
+}
+
+} // namespace
+
+core::Result<void> convertNodes(GltfContext& context) {
+    for (std::size_t i = 0; i < context.model.nodes.size(); ++i) {
+        core::Result<GltfNode> node = readNode(context, i);
+        if (!node) {
+            return node.error();
+        }
+        context.file.nodes.push_back(std::move(*node));
+    }
+    core::Result<void> linked = linkParents(context.file.nodes);
+    return linked ? checkForest(context.file.nodes) : linked;
+}
+
+core::Result<void> convertScenes(GltfContext& context) {
+    std::vector<std::size_t> usedBy(context.file.nodes.size(), context.model.scenes.size());
+    for (std::size_t i = 0; i < context.model.scenes.size(); ++i) {
+        const tinygltf::Scene& source = context.model.scenes[i];
+        GltfScene scene;
+        scene.name = source.name;
+        for (std::size_t r = 0; r < source.nodes.size(); ++r) {
+            const auto node = static_cast<std::size_t>(source.nodes[r]);
+            const std::string at = pointer(pointer("/scenes", i) + "/nodes", r);
+            if (context.file.nodes[node].parent != kNone) {
+                return core::refused("scene's node has a parent; it must be a root", at);
+            }
+            if (usedBy[node] == i) {
+                return core::refused("scene names a node twice", at);
+            }
+            usedBy[node] = i;
+            scene.roots.push_back(source.nodes[r]);
+        }
+        context.file.scenes.push_back(std::move(scene));
+    }
+    const Json* given = member(context.document, "scene");
+    context.file.defaultScene = given != nullptr              ? given->get<int>()
+                                : context.file.scenes.empty() ? kNone
+                                                              : 0;
+    return {};
+}
+
+} // namespace lodestar::io::detail
