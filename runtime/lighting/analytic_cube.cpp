@@ -41,18 +41,33 @@ double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-/// Sums f(direction) times the solid angle over a cell with 2x2 Gauss points, and the solid angle.
+/// Calls f(u, v, 1 / length, weight) at the 2x2 Gauss points of a cell; the weights are the solid
+/// angle.
 template <class Function>
-void addGauss(const Cell& cell, const Function& f, glm::dvec3& sum, double& solidAngle) {
+void eachGaussPoint(const Cell& cell, const Function& f) {
     const double offset = cell.halfSide * 0.57735026918962576;
     for (int s = 0; s < 4; ++s) {
         const double u = cell.u + ((s & 1) == 0 ? -offset : offset);
         const double v = cell.v + ((s & 2) == 0 ? -offset : offset);
         const double inverse = 1.0 / std::sqrt(1.0 + u * u + v * v);
-        const double weight = inverse * inverse * inverse * cell.halfSide * cell.halfSide;
+        f(u, v, inverse, inverse * inverse * inverse * cell.halfSide * cell.halfSide);
+    }
+}
+
+/// Sums f(direction) times the solid angle over a cell, and the solid angle.
+template <class Function>
+void addGauss(const Cell& cell, const Function& f, glm::dvec3& sum, double& solidAngle) {
+    eachGaussPoint(cell, [&](double u, double v, double inverse, double weight) {
         sum += weight * f(shader_double::lodestar_cubeDirection(cell.face, u, v) * inverse);
         solidAngle += weight;
-    }
+    });
+}
+
+/// Of a cell at most 2 / kFineWidth wide, to 1e-8.
+double solidAngleOf(const Cell& cell) {
+    double sum = 0.0;
+    eachGaussPoint(cell, [&](double, double, double, double weight) { sum += weight; });
+    return sum;
 }
 
 /// The mean of a smooth function over a texel.
@@ -110,10 +125,11 @@ private:
 
     /// Deep enough for a rim of 1e-7 degrees in a whole face.
     static constexpr int kMaxDepth = 34;
-    /// The rim is taken as straight in cells this much smaller than its radius: the sagitta is then
-    /// 1 / 512 of the cell, and its sign is the same all round, so that the cap's area is short by
-    /// 1 / (6 * 16^2 * 8): 8e-5 of one ring of cells, of which a radius holds 16.
-    static constexpr double kCellsPerRadius = 16.0;
+    /// The rim is taken as its tangent in cells whose half diagonal is at most the radius over
+    /// this. It bends away from the tangent by x^2 / 2r, on average by a^2 / 24r over a cell of
+    /// side a, so that the cap's area pi r^2 is in error by at most a^2 / 12r^2: 7e-5, with a =
+    /// sqrt 2 r / 48.
+    static constexpr double kCellsPerRadius = 48.0;
 
     [[nodiscard]] double bound(const Cell& cell) const {
         // The half diagonal seen from the origin; the plane is at least as far away as 1.
@@ -130,8 +146,6 @@ private:
     }
 
     void add(const Cell& cell, int depth, double& covered, double& solidAngle) const {
-        const double inverse = 1.0 / std::sqrt(1.0 + cell.u * cell.u + cell.v * cell.v);
-        const double area = inverse * inverse * inverse * 4.0 * cell.halfSide * cell.halfSide;
         const Relation relation = relationTo(cell);
         const double rim = std::min(radius_, kPi - radius_);
         const bool coarse = cell.halfSide > 1.0 / kFineWidth || depth < 2;
@@ -145,10 +159,13 @@ private:
             }
             return;
         }
-        solidAngle += area;
-        covered +=
-            area * (relation == Relation::Crossed ? rimShare(cell)
-                                                  : (relation == Relation::Inside ? 1.0 : 0.0));
+        const double weight = solidAngleOf(cell);
+        solidAngle += weight;
+        if (relation == Relation::Crossed) {
+            covered += weight * rimShare(cell);
+        } else if (relation == Relation::Inside) {
+            covered += weight;
+        }
     }
 
     /// The share of a cell that a straight piece of rim leaves inside.

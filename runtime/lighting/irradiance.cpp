@@ -150,13 +150,29 @@ struct PairMoment {
     glm::vec4 z[2] = {};
 };
 
-/// First moments of a map's blocks; block b of a side holds the columns i with i blocks / n == b.
+/// Blocks along a side: each texel one, or kBlocks; one less where an odd width needs a middle one.
+int blockCount(int width) {
+    return width <= kBlocks ? width : kBlocks - width % 2;
+}
+
+/// The first column of block b; mirror images of one another about the middle of the face.
+int blockBegin(int b, int width, int blocks) {
+    return 2 * b <= blocks ? (2 * b * width + blocks) / (2 * blocks)
+                           : width - blockBegin(blocks - b, width, blocks);
+}
+
+/// First moments of a map's blocks.
 std::vector<PairMoment> blockMoments(const Cubemap& base, int blocks) {
     const int n = base.width();
     const auto side = static_cast<std::size_t>(blocks);
     std::vector<PairMoment> moments((kFaces * side * side + 1) / 2);
     const auto table = texelTable(n);
-    for (int y = 0; y < n; ++y) {
+    std::vector<int> begins;
+    for (int b = 0; b <= blocks; ++b) {
+        begins.push_back(blockBegin(b, n, blocks));
+    }
+    for (int y = 0, row = 0; y < n; ++y) {
+        row += y == begins[static_cast<std::size_t>(row) + 1] ? 1 : 0;
         const RowWeights weights(*table, y);
         const float* rows[2] = {weights.w1.data(), weights.w1u.data()};
         for (int face = 0; face < kFaces; ++face) {
@@ -164,13 +180,12 @@ std::vector<PairMoment> blockMoments(const Cubemap& base, int blocks) {
             const glm::vec3 columns(axes.columns);
             const glm::vec3 along(axes.out + coordinate(y, n) * axes.rows);
             const std::size_t first =
-                (static_cast<std::size_t>(face) * side + static_cast<std::size_t>(y * blocks / n)) *
-                side;
+                (static_cast<std::size_t>(face) * side + static_cast<std::size_t>(row)) * side;
             for (int b = 0; b < blocks; ++b) {
                 glm::vec4 sums[2] = {};
                 addFirstOrder(asFloat4(&base.texel(face, 0, y)), rows,
-                              (b * n + blocks - 1) / blocks, ((b + 1) * n + blocks - 1) / blocks,
-                              asFloat4(sums));
+                              begins[static_cast<std::size_t>(b)],
+                              begins[static_cast<std::size_t>(b) + 1], asFloat4(sums));
                 const std::size_t block = first + static_cast<std::size_t>(b);
                 PairMoment& out = moments[block / 2];
                 out.x[block % 2] += sums[1] * columns.x + sums[0] * along.x;
@@ -182,27 +197,37 @@ std::vector<PairMoment> blockMoments(const Cubemap& base, int blocks) {
     return moments;
 }
 
-/// Sum over all blocks of max(n.m, 0), a channel each, about two normals.
+/// Sum over all blocks of max(n.m, 0), a channel each, about two normals. Summed in runs, whose
+/// sums are then added: rounding grows with the run's length and their number, not with the
+/// product.
 LODESTAR_VECTOR_CLONES
 void clampedSums(const PairMoment* moments, std::size_t count, const glm::vec3* normals,
                  glm::vec4* sums) {
+    constexpr std::size_t kRun = 64;
     const glm::vec3 p = normals[0];
     const glm::vec3 q = normals[1];
-    Float8 sumP = {};
-    Float8 sumQ = {};
+    Float8 totalP = {};
+    Float8 totalQ = {};
     const Float8 zero = {};
-    for (std::size_t i = 0; i < count; ++i) {
-        const Float8 x = *asFloat8(moments[i].x);
-        const Float8 y = *asFloat8(moments[i].y);
-        const Float8 z = *asFloat8(moments[i].z);
-        const Float8 cosineP = x * p.x + y * p.y + z * p.z;
-        const Float8 cosineQ = x * q.x + y * q.y + z * q.z;
-        sumP += cosineP > zero ? cosineP : zero;
-        sumQ += cosineQ > zero ? cosineQ : zero;
+    for (std::size_t begin = 0; begin < count; begin += kRun) {
+        Float8 sumP = {};
+        Float8 sumQ = {};
+        const std::size_t end = std::min(begin + kRun, count);
+        for (std::size_t i = begin; i < end; ++i) {
+            const Float8 x = *asFloat8(moments[i].x);
+            const Float8 y = *asFloat8(moments[i].y);
+            const Float8 z = *asFloat8(moments[i].z);
+            const Float8 cosineP = x * p.x + y * p.y + z * p.z;
+            const Float8 cosineQ = x * q.x + y * q.y + z * q.z;
+            sumP += cosineP > zero ? cosineP : zero;
+            sumQ += cosineQ > zero ? cosineQ : zero;
+        }
+        totalP += sumP;
+        totalQ += sumQ;
     }
     for (int c = 0; c < 4; ++c) {
-        sums[0][c] = sumP[c] + sumP[c + 4];
-        sums[1][c] = sumQ[c] + sumQ[c + 4];
+        sums[0][c] = totalP[c] + totalP[c + 4];
+        sums[1][c] = totalQ[c] + totalQ[c + 4];
     }
 }
 
@@ -263,7 +288,7 @@ Sh9Coefficients sh9FromCube(const Cubemap& base) {
 
 Cubemap irradianceCube(const Cubemap& base) {
     LODESTAR_EXPECT(!base.empty(), "irradiance is made from a map");
-    const int blocks = std::min(base.width(), kBlocks);
+    const int blocks = blockCount(base.width());
     const std::vector<PairMoment> moments = blockMoments(base, blocks);
     const std::vector<float> weights = irradianceWeights(base.width(), blocks);
     Cubemap cube(kIrradianceWidth);
