@@ -7,67 +7,14 @@
 #include "lighting/environment.h"
 #include "lodestar/sh9.glsl"
 #include "support/cubes.h"
+#include "support/full_irradiance.h"
 
 namespace lodestar::lighting {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// All texels of a map as lamps: direction times solid angle, and radiance.
-class FullSum {
-public:
-    explicit FullSum(const Cubemap& map) {
-        const int n = map.width();
-        const std::vector<double> omega = texelSolidAngles(n);
-        for (int face = 0; face < 6; ++face) {
-            for (int i = 0; i < n * n; ++i) {
-                lamps_.push_back({omega[static_cast<std::size_t>(i)] *
-                                      testing::texelDirection(face, i % n, i / n, n),
-                                  glm::dvec3(map.texel(face, i % n, i / n))});
-            }
-        }
-    }
-
-    /// Irradiance over pi in double, the cosine's weights divided by their sum.
-    [[nodiscard]] glm::dvec3 about(const glm::dvec3& normal) const {
-        glm::dvec3 sum(0.0);
-        double weights = 0.0;
-        for (const Lamp& lamp : lamps_) {
-            const double w = std::max(glm::dot(lamp.direction, normal), 0.0);
-            sum += w * lamp.radiance;
-            weights += w;
-        }
-        return sum / weights;
-    }
-
-private:
-    struct Lamp {
-        glm::dvec3 direction;
-        glm::dvec3 radiance;
-    };
-    std::vector<Lamp> lamps_;
-};
-
-/// RMS over every seventh texel of the irradiance cube (by solid angle) of the error against the
-/// full sum, relative to the RMS of the full sum.
-double relativeError(const Cubemap& base) {
-    constexpr int kSide = kIrradianceWidth;
-    const Cubemap cube = irradianceCube(base);
-    const FullSum full(base);
-    const std::vector<double> omega = texelSolidAngles(kSide);
-    double error = 0.0;
-    double square = 0.0;
-    for (int i = 0; i < 6 * kSide * kSide; i += 7) {
-        const int face = i / (kSide * kSide);
-        const int k = i % (kSide * kSide);
-        const glm::dvec3 truth =
-            full.about(testing::texelDirection(face, k % kSide, k / kSide, kSide));
-        const glm::dvec3 d = glm::dvec3(cube.texel(face, k % kSide, k / kSide)) - truth;
-        error += omega[static_cast<std::size_t>(k)] * glm::dot(d, d);
-        square += omega[static_cast<std::size_t>(k)] * glm::dot(truth, truth);
-    }
-    return std::sqrt(error / square);
-}
+using testing::relativeIrradianceError;
 
 TEST(IrradianceCube, ConstantMapIsOne) {
     for (const int n : {1, 2, 16, 33, 100, 256}) {
@@ -85,8 +32,8 @@ TEST(IrradianceCube, ConstantMapIsOne) {
 
 /// Up to 32 texels a side each texel is a block: the full sum itself, in float.
 TEST(IrradianceCube, SmallMapsAreTheFullSum) {
-    EXPECT_LT(relativeError(testing::randomCube(20, 3)), 1e-5);
-    EXPECT_LT(relativeError(testing::randomCube(1, 3)), 1e-5);
+    EXPECT_LT(relativeIrradianceError(testing::randomCube(20, 3)), 1e-5);
+    EXPECT_LT(relativeIrradianceError(testing::randomCube(1, 3)), 1e-5);
 }
 
 /// Larger maps act by blocks. A block that a normal's horizon crosses gives max(n.m, 0) of its mean
@@ -95,7 +42,7 @@ TEST(IrradianceCube, SmallMapsAreTheFullSum) {
 /// Noise has more, by the share of a block's light that lies off its mean: bounded by half a per
 /// cent.
 TEST(IrradianceCube, NoiseIsWithinHalfAPercent) {
-    EXPECT_LT(relativeError(testing::randomCube(128, 4)), 0.005);
+    EXPECT_LT(relativeIrradianceError(testing::randomCube(128, 4)), 0.005);
 }
 
 /// One texel lit: a block's light acts along its own mean direction, so a lamp is exact but for the
@@ -105,7 +52,7 @@ TEST(IrradianceCube, OneLampActsFromItsPlace) {
          {glm::ivec3(2, 3, 77), glm::ivec3(4, 0, 0), glm::ivec3(1, 127, 64)}) {
         Cubemap base(128);
         base.texel(at.x, at.y, at.z) = glm::vec4(1e6f, 1e6f, 1e6f, 1.0f);
-        EXPECT_LT(relativeError(base), 1.0 / (3.0 * 32.0 * 32.0));
+        EXPECT_LT(relativeIrradianceError(base), 1.0 / (3.0 * 32.0 * 32.0));
     }
 }
 
