@@ -18,11 +18,7 @@ public:
     /// @pre width, height >= 0, channels in [1, 4]
     Image(int width, int height, int channels)
         : width_(width), height_(height), channels_(channels),
-          pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
-                  static_cast<std::size_t>(channels)) {
-        LODESTAR_EXPECT(width >= 0 && height >= 0 && channels >= 1 && channels <= 4,
-                        "an image has 1 to 4 channels and no negative size");
-    }
+          pixels_(count(width, height, channels)) {}
 
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
@@ -36,6 +32,13 @@ public:
     [[nodiscard]] const float* at(int x, int y) const { return pixels_.data() + offset(x, y); }
 
 private:
+    /// Checked before anything is allocated.
+    [[nodiscard]] static std::size_t count(int width, int height, int channels) {
+        LODESTAR_EXPECT(width >= 0 && height >= 0 && channels >= 1 && channels <= 4,
+                        "an image has 1 to 4 channels and no negative size");
+        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+               static_cast<std::size_t>(channels);
+    }
     [[nodiscard]] std::size_t offset(int x, int y) const {
         return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                 static_cast<std::size_t>(x)) *

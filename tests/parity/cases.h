@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+//
+// Inputs of the parity rows: the hazards first (zeros, limits, infinities, NaN, zero and huge
+// vectors), then a few hundred drawn with a fixed seed. p0.x is a row's first argument, and so on;
+// each function's comment names the others.
+#pragma once
+
+#include <vector>
+
+#include "support/glsl_function.h"
+
+namespace lodestar::testing {
+
+std::vector<GlslCase> exponentCases();          ///< any exponent, width, last level
+std::vector<GlslCase> validExponentCases();     ///< exponent [0, 1e7], width, last level
+std::vector<GlslCase> unitIntervalCases();      ///< x, a little beyond [0, 1] too
+std::vector<GlslCase> radianceCases();          ///< x in [0, 1e9], negative, infinite
+std::vector<GlslCase> cosineAndExponentCases(); ///< cosine [-1, 1.0000001], exponent [0, 1e7]
+std::vector<GlslCase> exponentAndUnitCases();   ///< any exponent, x in [0, 1]
+std::vector<GlslCase> chordCases();             ///< d in [0, 2], exponent [0, 1e7]
+std::vector<GlslCase> vectorPairCases();        ///< p0.xyz, p1.xyz unit, exponent p0.w
+std::vector<GlslCase> anyVectorCases();         ///< p0.xyz any vector, p1.xyz a fallback
+std::vector<GlslCase> moderateVectorCases();    ///< the same, squares below overflow
+std::vector<GlslCase> faceCases();              ///< face, u, v
+std::vector<GlslCase> footprintCases();         ///< p0 direction and width, p1, p2 derivatives
+std::vector<GlslCase> raiseCases();             ///< level, floor, last level
+std::vector<GlslCase> tentCases();              ///< exponentCases with a unit direction p1
+std::vector<GlslCase> biasCases();              ///< least level, n.v
+std::vector<GlslCase> texelCases();             ///< width, column, row
+std::vector<GlslCase> reflectanceCases(); ///< cosine, exponent; p1 a reflectance, p1.w metallic
+std::vector<GlslCase> directCases();      ///< p0 n and exponent, p1 v, p2 l, p3 k_L, p4 F0
+std::vector<GlslCase> sh9Cases();         ///< p0 to p8 coefficients, p9 unit
+/// p0 width, last level, least level, floor; p1 n and exponent; p2 v and occlusion; p3 k_L; p4 F0;
+/// p5, p6 derivatives of the reflection. n.v > 0.
+std::vector<GlslCase> surfaceCases();
+
+} // namespace lodestar::testing

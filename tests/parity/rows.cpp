@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#include "parity/rows.h"
+
+#include "parity/cases.h"
+#include "parity/tolerances.h"
+
+namespace lodestar::testing {
+
+std::vector<ParityRow> parityRows() {
+    std::vector<ParityRow> rows;
+#define PARITY_ROW(function, file, cases, tolerance, ...)                                          \
+    rows.push_back({#function, file, 0, #__VA_ARGS__, cases, tolerance, false});
+#include "parity/function_rows.inc"
+#undef PARITY_ROW
+    for (int specular = 0; specular < kSpecularVariants; ++specular) {
+#define PARITY_ROW(function, file, cases, tolerance, ...)                                          \
+    rows.push_back({#function, file, specular, #__VA_ARGS__, cases, tolerance, true});
+#include "parity/environment_rows.inc"
+#undef PARITY_ROW
+    }
+    return rows;
+}
+
+} // namespace lodestar::testing
