@@ -152,10 +152,11 @@ core::Result<void> setKey(SampleQuery& query, const std::string& key, const json
     if (key != "width") {
         return usage("unknown key \"" + key + "\"", "/" + key);
     }
-    if (!value.is_number_integer() || value < json(1) || value > json(kMaxWidth)) {
+    const double width = value.is_number() ? value.get<double>() : 0.0;
+    if (!(width >= 1.0 && width <= kMaxWidth) || width != std::floor(width)) {
         return usage("the width is not a whole number from 1 to 4096", "/" + key);
     }
-    query.width = value.get<int>();
+    query.width = static_cast<int>(width);
     return {};
 }
 
@@ -273,6 +274,9 @@ core::Result<SampleQuery> parseBatchLine(const std::string& line, const SampleQu
     }
     SampleQuery query = defaults;
     for (const auto& [key, value] : object.items()) {
+        if (value.is_null()) {
+            continue; // as if the line lacked it
+        }
         if (auto set = setKey(query, key, value); !set) {
             return set.error();
         }
