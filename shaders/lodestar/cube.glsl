@@ -108,7 +108,8 @@ LODESTAR_FN Real lodestar_footprintLevel(vec3 d, vec3 dx, vec3 dy, Real width) {
     vec3 py = (dy * k - d * dot(dy, axis)) * (1.0f / (k * k));
     Real span = max(dot(px, px), dot(py, py));
     // log2(0) is undefined in GLSL; a comparison keeps NaN where max() might not.
-    return log2(0.5f * width) + 0.5f * log2(span < LODESTAR_LITERAL(1e-30) ? LODESTAR_LITERAL(1e-30) : span);
+    span = span < LODESTAR_LITERAL(1e-30) ? LODESTAR_LITERAL(1e-30) : span;
+    return log2(0.5f * width) + 0.5f * log2(span);
 }
 
 /// A level raised to a floor; a floor that is NaN or -infinity changes nothing.
@@ -144,8 +145,8 @@ LODESTAR_FN Real lodestar_tentLevel(vec3 d, Real exponent, Real width, Real maxL
 
 /// The least level of `bias` for one vertex: the object's, sharpened towards grazing angles, where
 /// the Blinn-Phong lobe about the reflection covers n.v times the solid angle it covers at n = v
-/// (a lobe of the half vector is 4 h.v times smaller about the reflection). Ashikhmin and Ghosh 2002
-/// ask for a level a vertex for this purpose and leave the law open.
+/// (a lobe of the half vector is 4 h.v times larger about the reflection; MIP-8). Ashikhmin and
+/// Ghosh 2002 ask for a level a vertex for this purpose and leave the law open.
 /// @param leastLevel the object's level, >= 0  @param nDotV [0, 1]
 LODESTAR_FN Real lodestar_biasLevelAtVertex(Real leastLevel, Real nDotV) {
     return max(leastLevel + 0.5f * log2(clamp(nDotV, LODESTAR_LITERAL(1e-6), Real(1.0f))), Real(0.0f));
