@@ -56,16 +56,37 @@ View lookAt(const Scene& scene, const glm::vec3& eye, const glm::vec3& target, f
     return view;
 }
 
+/// How far from the target an eye along `direction` must be for all of a box to be in the picture.
+float distanceToFrame(const Bounds& bounds, const glm::vec3& direction, float verticalFov,
+                      float aspect) {
+    constexpr float kMargin = 1.08f; // of the half angles' tangents
+    const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0.0f, 1.0f, 0.0f), direction));
+    const glm::vec3 up = glm::cross(direction, right);
+    const float tangent = std::tan(0.5f * verticalFov);
+    float distance = 0.0f;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 p = glm::vec3((corner & 1) != 0 ? bounds.high.x : bounds.low.x,
+                                      (corner & 2) != 0 ? bounds.high.y : bounds.low.y,
+                                      (corner & 4) != 0 ? bounds.high.z : bounds.low.z) -
+                            bounds.center();
+        const float across = std::max(std::abs(glm::dot(p, right)) / (tangent * aspect),
+                                      std::abs(glm::dot(p, up)) / tangent);
+        distance = std::max(distance, glm::dot(p, direction) + kMargin * across);
+    }
+    return std::max(distance, 1e-4f);
+}
+
 /// Frames everything from the front right, a little above.
 View frame(const Scene& scene, float verticalFov, float aspect) {
-    const Bounds bounds = scene.worldBounds();
-    const glm::vec3 center = bounds.empty() ? glm::vec3(0.0f) : bounds.center();
-    const float radius = bounds.empty() ? 1.0f : std::max(bounds.radius(), 1e-4f);
-    const float halfFov =
-        0.5f * std::min(verticalFov, 2.0f * std::atan(std::tan(0.5f * verticalFov) * aspect));
     const glm::vec3 direction = glm::normalize(glm::vec3(0.45f, 0.3f, 1.0f));
-    return lookAt(scene, center + direction * (radius / std::sin(halfFov)), center, verticalFov,
-                  aspect);
+    Bounds bounds = scene.worldBounds();
+    if (bounds.empty()) {
+        bounds.add(glm::vec3(-1.0f));
+        bounds.add(glm::vec3(1.0f));
+    }
+    const glm::vec3 eye =
+        bounds.center() + direction * distanceToFrame(bounds, direction, verticalFov, aspect);
+    return lookAt(scene, eye, bounds.center(), verticalFov, aspect);
 }
 
 View fromCamera(const Scene& scene, const PlacedCamera& placed, float aspect,

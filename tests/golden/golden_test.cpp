@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+//
+// Small pictures that must stay what they are. Each golden has three thresholds and a property that
+// does not depend on the picture kept; each must fail against every other golden and against
+// planted faults. `golden-pictures --update NAME` writes one anew: look at it before you commit it.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+
+#include "lighting/environment.h"
+#include "scene/renderer.h"
+#include "support/gl_fixture.h"
+#include "support/picture.h"
+#include "support/shapes.h"
+
+namespace lodestar::testing {
+namespace {
+
+constexpr int kSide = 64;
+
+/// A fault planted in the materials of a scene.
+struct Fault {
+    const char* name = "none";
+    float exponentFactor = 1.0f; ///< of s
+    float levelShift = 0.0f;     ///< mip levels: s + 1 is divided by 4 for each
+    float diffuseFactor = 1.0f;
+};
+
+constexpr Fault kFaults[] = {
+    {"exponent doubled", 2.0f, 0.0f, 1.0f},
+    {"level + 1", 1.0f, 1.0f, 1.0f},
+    {"divided by pi once more", 1.0f, 0.0f, 0.318309886f},
+};
+
+io::GltfMaterial material(const glm::vec3& diffuse, const glm::vec3& f0, float exponent,
+                          const Fault& fault) {
+    const float shifted = (exponent + 1.0f) * std::exp2(-2.0f * fault.levelShift) - 1.0f;
+    return blinnPhong(diffuse * fault.diffuseFactor, f0,
+                      std::max(shifted, 0.0f) * fault.exponentFactor);
+}
+
+/// Four spheres in a square, each in its own material.
+scene::Scene fourSpheres(const Fault& fault) {
+    io::GltfFile file;
+    const glm::vec3 gold(1.0f, 0.71f, 0.29f);
+    const io::GltfMaterial materials[] = {
+        material(glm::vec3(0.7f, 0.2f, 0.1f), glm::vec3(0.04f), 8.0f, fault),
+        material(glm::vec3(0.1f, 0.3f, 0.6f), glm::vec3(0.2f), 120.0f, fault),
+        material(glm::vec3(0.05f), gold, 30.0f, fault),
+        material(glm::vec3(0.3f), glm::vec3(0.5f), 1000.0f, fault)};
+    for (int i = 0; i < 4; ++i) {
+        io::GltfPrimitive part = sphere(32, 64);
+        part.material = i;
+        file.meshes.push_back({"sphere", {part}});
+        file.materials.push_back(materials[i]);
+        io::GltfNode node;
+        node.mesh = i;
+        node.translation = {i % 2 == 0 ? -1.05f : 1.05f, i < 2 ? 1.05f : -1.05f, 0.0f};
+        file.nodes.push_back(node);
+    }
+    file.scenes.push_back({"four", {0, 1, 2, 3}});
+    file.defaultScene = 0;
+    return scene::buildScene(std::move(file));
+}
+
+struct Golden {
+    const char* name;
+    lighting::AnalyticEnvironment environment;
+    const char* specular;
+    const char* diffuse;
+    bool backdrop;
+    /// Thresholds on |a - b| / (1 + a): the largest a pixel may reach, the mean, and the share of
+    /// pixels allowed beyond 1/255. Reasons in docs/testing.md.
+    double largest = 0.5, mean = 1e-3, failing = 1e-3;
+};
+
+const lighting::FacesEnvironment kFaces{{glm::dvec3(1.5, 0.2, 0.1), glm::dvec3(0.1, 0.6, 0.2),
+                                         glm::dvec3(0.2, 0.4, 1.6), glm::dvec3(0.3, 0.25, 0.2),
+                                         glm::dvec3(0.9, 0.9, 0.8), glm::dvec3(0.02)}};
+
+const Golden kGoldens[] = {
+    {"sky-tent-irradiance", lighting::ClearSkyEnvironment{}, "tent", "irradiance", true},
+    {"sky-mip-lowest-mip", lighting::ClearSkyEnvironment{}, "mip", "lowest-mip", false},
+    {"faces-mip-floor-sh9", kFaces, "mip-floor", "sh9", false},
+    {"disc-tent-sh9",
+     lighting::DiscEnvironment{glm::normalize(glm::dvec3(0.48, 0.6, 0.64)), 0.2, glm::dvec3(20.0),
+                               glm::dvec3(0.1)},
+     "tent", "sh9", true},
+};
+
+class Goldens : public GlTest {
+public:
+    static std::string path(const Golden& golden) {
+        return std::string(LODESTAR_TEST_DATA) + "/golden/images/" + golden.name + ".exr";
+    }
+    core::Image render(const Golden& golden, const Fault& fault = {}) {
+        const scene::Scene scene = fourSpheres(fault);
+        auto renderer = scene::Renderer::make(device(), scene);
+        EXPECT_TRUE(renderer.ok());
+        (*renderer)->setEnvironment(golden.name,
+                                    lighting::cubeFromAnalytic(golden.environment, 64));
+        scene::RenderSettings settings;
+        settings.width = settings.height = kSide;
+        settings.backdrop = golden.backdrop;
+        settings.specular = *lighting::parseEstimator(golden.specular, lighting::Term::Glossy);
+        settings.diffuse = *lighting::parseEstimator(golden.diffuse, lighting::Term::Diffuse);
+        auto frame = (*renderer)->render(frontView(scene, 6.5f), settings);
+        EXPECT_TRUE(frame.ok());
+        return std::move(frame->radiance);
+    }
+    void TestBody() override {}
+    void start() { SetUp(); }
+    void stop() { TearDown(); }
+};
+
+/// Differences relative to 1 + the golden's value, so that bright pixels do not rule.
+Difference relative(const core::Image& golden, const core::Image& actual) {
+    core::Image a = golden;
+    core::Image b = actual;
+    for (std::size_t i = 0; i < a.pixels().size(); ++i) {
+        const float scale = 1.0f / (1.0f + golden.pixels()[i]);
+        a.pixels()[i] *= scale;
+        b.pixels()[i] *= scale;
+    }
+    return compare(a, b, 1.0 / 255.0);
+}
+
+bool passes(const Golden& golden, const core::Image& kept, const core::Image& actual) {
+    const Difference d = relative(kept, actual);
+    return d.largest <= golden.largest && d.mean <= golden.mean &&
+           d.failingFraction <= golden.failing;
+}
+
+TEST_F(Goldens, PicturesAreAsKept) {
+    for (const Golden& golden : kGoldens) {
+        const core::Image kept = readPicture(path(golden));
+        const core::Image actual = render(golden);
+        const Difference d = relative(kept, actual);
+        EXPECT_TRUE(passes(golden, kept, actual))
+            << golden.name << ": largest " << d.largest << ", mean " << d.mean << ", beyond 1/255 "
+            << d.failingFraction;
+        if (!passes(golden, kept, actual)) {
+            const std::string failed = std::string(golden.name) + "-actual.exr";
+            EXPECT_TRUE(io::writeImage(failed, actual).ok());
+        }
+        // The property: light is neither made nor lost. No pixel is brighter than the environment's
+        // brightest texel, none negative, and the mean lies between its darkest and brightest.
+        const lighting::Cubemap map = lighting::cubeFromAnalytic(golden.environment, 64);
+        float brightest = 0.0f;
+        for (const glm::vec4& texel : map.level(0)) {
+            brightest = std::max({brightest, texel.r, texel.g, texel.b});
+        }
+        const auto [low, high] =
+            std::minmax_element(actual.pixels().begin(), actual.pixels().end());
+        EXPECT_GE(*low, 0.0f) << golden.name;
+        EXPECT_LE(*high, std::max(brightest, 1.0f) * 1.001f) << golden.name;
+    }
+}
+
+TEST_F(Goldens, EachFailsAgainstEveryOtherAndAgainstPlantedFaults) {
+    for (const Golden& golden : kGoldens) {
+        const core::Image kept = readPicture(path(golden));
+        for (const Golden& other : kGoldens) {
+            if (&other != &golden) {
+                EXPECT_FALSE(passes(golden, kept, readPicture(path(other))))
+                    << golden.name << " " << other.name;
+            }
+        }
+        for (const Fault& fault : kFaults) {
+            EXPECT_FALSE(passes(golden, kept, render(golden, fault)))
+                << golden.name << " " << fault.name;
+        }
+    }
+}
+
+int update(const char* name) {
+    for (const Golden& golden : kGoldens) {
+        if (std::strcmp(golden.name, name) == 0) {
+            Goldens fixture;
+            fixture.start();
+            const auto written = io::writeImage(Goldens::path(golden), fixture.render(golden));
+            fixture.stop();
+            std::printf("%s: %s\n", name, written ? "written" : written.error().message().c_str());
+            return written ? 0 : 1;
+        }
+    }
+    std::printf("no golden '%s'\n", name);
+    return 2;
+}
+
+} // namespace
+} // namespace lodestar::testing
+
+int main(int argc, char** argv) {
+    if (argc == 3 && std::strcmp(argv[1], "--update") == 0) {
+        return lodestar::testing::update(argv[2]);
+    }
+    ::testing::InitGoogleTest(&argc, argv);
+    return RUN_ALL_TESTS();
+}
