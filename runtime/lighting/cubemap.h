@@ -27,7 +27,9 @@ public:
     [[nodiscard]] bool empty() const { return levels_.empty(); }
 
     /// All six faces of a level, face by face, row by row.
-    [[nodiscard]] std::vector<glm::vec4>& level(int level) { return levels_[static_cast<size_t>(level)]; }
+    [[nodiscard]] std::vector<glm::vec4>& level(int level) {
+        return levels_[static_cast<size_t>(level)];
+    }
     [[nodiscard]] const std::vector<glm::vec4>& level(int level) const {
         return levels_[static_cast<size_t>(level)];
     }
@@ -48,8 +50,8 @@ private:
 };
 
 /// Solid angles of the texels of one face of a level in steradians, row by row; exact (the
-/// difference of atan(xy / sqrt(1 + x^2 + y^2)) over the corners, in double). Six times their sum is
-/// 4 pi.
+/// difference of atan(xy / sqrt(1 + x^2 + y^2)) over the corners, in double). Six times their sum
+/// is 4 pi.
 [[nodiscard]] std::vector<double> texelSolidAngles(int width);
 
 } // namespace lodestar::lighting

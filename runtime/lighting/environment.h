@@ -50,15 +50,16 @@ using AnalyticEnvironment = std::variant<ConstantEnvironment, GradientEnvironmen
 [[nodiscard]] core::Result<AnalyticEnvironment> parseAnalytic(std::string_view text);
 
 /// Radiance along a unit direction.
-[[nodiscard]] glm::dvec3 radiance(const AnalyticEnvironment& environment, const glm::dvec3& direction);
+[[nodiscard]] glm::dvec3 radiance(const AnalyticEnvironment& environment,
+                                  const glm::dvec3& direction);
 
 /// Texel means of an analytic environment (solid-angle weighted supersampling, refined where the
 /// map has an edge), level 0 only. @pre width in [1, 4096]
 [[nodiscard]] Cubemap cubeFromAnalytic(const AnalyticEnvironment& environment, int width);
 
 /// A lat-long panorama resampled to a cube, level 0 only. Centre column -Z, rightwards to +X, top
-/// +Y. Every texel is the solid-angle weighted mean of at least 4x4 bilinear lookups, more where the
-/// panorama is finer than the cube.
+/// +Y. Every texel is the solid-angle weighted mean of at least 4x4 bilinear lookups, more where
+/// the panorama is finer than the cube.
 /// @param panorama linear radiance, 3 channels, repaired  @pre width in [1, 4096]
 [[nodiscard]] Cubemap cubeFromLatLong(const core::Image& panorama, int width);
 
@@ -85,8 +86,9 @@ using Sh9Coefficients = std::array<glm::vec3, 9>;
 /// Irradiance over pi by order-2 spherical harmonics, from texel values and exact solid angles.
 [[nodiscard]] Sh9Coefficients sh9FromCube(const Cubemap& base);
 
-/// The 16x16 irradiance cube (over pi: a constant map of 1 gives 1), every texel the cosine lobe's
-/// exact quadrature over the map. level 0 only.
+/// The 16x16 irradiance cube (over pi: a constant map of 1 gives 1), level 0 only. Every texel is
+/// the cosine lobe summed over the map in 32x32 blocks a face, each acting along its own light's
+/// mean direction: 2e-4 RMS of the sum over all texels on panoramas, 1e-6 on a constant.
 [[nodiscard]] Cubemap irradianceCube(const Cubemap& base);
 inline constexpr int kIrradianceWidth = 16;
 

@@ -26,7 +26,8 @@ double processorMilliseconds() {
     return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
 }
 
-template <class Work> double timed(const Work& work) {
+template <class Work>
+double timed(const Work& work) {
     const double begin = processorMilliseconds();
     work();
     return processorMilliseconds() - begin;
@@ -44,8 +45,8 @@ void makeTexture(const lodestar::lighting::Cubemap& map) {
     glBindTexture(GL_TEXTURE_CUBE_MAP, texture);
     glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     for (unsigned face = 0; face < 6; ++face) {
-        glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, 0, GL_RGBA16F, kWidth, kWidth, 0, GL_RGBA,
-                     GL_FLOAT, &map.texel(static_cast<int>(face), 0, 0));
+        glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, 0, GL_RGBA16F, kWidth, kWidth, 0,
+                     GL_RGBA, GL_FLOAT, &map.texel(static_cast<int>(face), 0, 0));
     }
     glGenerateMipmap(GL_TEXTURE_CUBE_MAP); // allocates the levels
     glFinish();
