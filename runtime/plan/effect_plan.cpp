@@ -9,7 +9,6 @@
 namespace lodestar::plan {
 namespace {
 
-using lighting::EstimatorKind;
 using lighting::PreparedParts;
 
 constexpr std::array<const char*, 14> kFeatureNames = {"normals",
