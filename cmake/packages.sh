@@ -52,10 +52,10 @@ install_packages() {
 
 # configure_build: one optimised build tree for tests and samples, in build/.
 configure_build() {
-    cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release >build.log.tmp 2>&1 || {
-        cat build.log.tmp >&2
-        rm -f build.log.tmp
-        return 1
-    }
-    rm -f build.log.tmp
+    local log status=0
+    log=$(mktemp)
+    cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release >"$log" 2>&1 || status=1
+    [ $status -eq 0 ] || tail -n 30 "$log" >&2
+    rm -f "$log"
+    return $status
 }

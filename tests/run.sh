@@ -125,7 +125,7 @@ build() {
     local tree=$1 log
     shift
     log=$(mktemp)
-    if ! cmake --build "$tree" --target "$@" >"$log" 2>&1; then
+    if ! cmake --build "$tree" --parallel "$(nproc)" --target "$@" >"$log" 2>&1; then
         grep -E 'error|Error|FAILED' "$log" | head -n 40
         rm -f "$log"
         return 1

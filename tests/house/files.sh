@@ -6,46 +6,42 @@ set -u
 cd "${1:?usage: files.sh ROOT}" || exit 1
 limit=500
 readme_limit=150
-failures=0
-checked=0
-bad() {
-    echo "files: $1"
-    failures=$((failures + 1))
-}
-has() { grep -qE -- "$2" "$1"; }
 
 # Written so that this file does not match itself.
 machine_paths='(^|[^A-Za-z0-9_.])/(w[o]rk|r[o]ot|h[o]me/[a-z]|farm)/'
 registries='deb\.debian\.[o]rg|security\.debian\.[o]rg|registry\.npmjs|pypi\.[o]rg|proxy\.golang|index\.crates'
 marks='\b(TO[D]O|FIX[M]E|XX[X])\b'
 
-while IFS= read -r file; do
-    case $file in
-    *.h | *.cpp | *.c | *.glsl | *.vert | *.frag | *.sh | *.cmake)
-        head -n 3 "$file" | grep -q 'SPDX-License-Identifier: MIT' || bad "$file: no SPDX line among the first three"
-        ;;
-    esac
-    case $file in
-    *.h | *.cpp | *.c | *.glsl | *.vert | *.frag | *.sh | *.cmake | *CMakeLists.txt)
-        lines=$(wc -l <"$file")
-        [ "$lines" -le $limit ] || bad "$file: $lines lines, the limit is $limit"
-        ;;
-    README.md)
-        lines=$(wc -l <"$file")
-        [ "$lines" -le $readme_limit ] || bad "$file: $lines lines, the limit is $readme_limit"
-        ;;
-    *.json | *.md | *.yml | .ci/run) ;;
-    *) continue ;;
-    esac
-    checked=$((checked + 1))
-    has "$file" "$machine_paths" && bad "$file: a path of one machine: $(grep -nE "$machine_paths" "$file" | head -n 1 | cut -c1-100)"
-    has "$file" "$registries" && bad "$file: a registry host"
-    has "$file" "$marks" && bad "$file: unfinished work: $(grep -nE "$marks" "$file" | head -n 1 | cut -c1-100)"
-done < <(find . -name .git -prune -o -path './build*' -prune -o -path ./out -prune -o -type f -print | sed 's|^\./||' | LC_ALL=C sort)
-
-if [ "$checked" -eq 0 ]; then
+every=$(find . -name .git -prune -o -path './build*' -prune -o -path ./out -prune -o -type f -print |
+    sed 's|^\./||' | LC_ALL=C sort)
+sources=$(printf '%s\n' "$every" | grep -E '\.(h|cpp|c|glsl|vert|frag|sh|cmake)$')
+sized=$(printf '%s\n' "$every" | grep -E '\.(h|cpp|c|glsl|vert|frag|sh|cmake)$|CMakeLists\.txt$|^README\.md$')
+texts=$(printf '%s\n' "$every" | grep -E '\.(h|cpp|c|glsl|vert|frag|inc|sh|cmake|json|md|yml)$|CMakeLists\.txt$|^\.ci/run$')
+if [ -z "$texts" ]; then
     echo "files: nothing was checked"
     exit 1
 fi
-echo "files: $checked files checked, $failures violations"
+
+# on LIST COMMAND...: the command over all files of a list; the repository's names hold no spaces.
+on() {
+    local list=$1
+    shift
+    [ -z "$list" ] || printf '%s\n' "$list" | xargs "$@"
+}
+found=$(
+    on "$sources" awk 'FNR == 1 { if (file != "" && !seen) print file ": no SPDX line among the first three"
+                           file = FILENAME; seen = 0 }
+        FNR <= 3 && /SPDX-License-Identifier: MIT/ { seen = 1 }
+        END { if (file != "" && !seen) print file ": no SPDX line among the first three" }'
+    on "$sized" wc -l | awk -v limit=$limit -v readme=$readme_limit '
+        $2 == "total" { next }
+        { most = $2 == "README.md" ? readme : limit }
+        $1 > most { print $2 ": " $1 " lines, the limit is " most }'
+    on "$texts" grep -HnE -- "$machine_paths" | sed 's/^\([^:]*:[0-9]*\):.*/\1: a path of one machine/'
+    on "$texts" grep -HnE -- "$registries" | sed 's/^\([^:]*:[0-9]*\):.*/\1: a registry host/'
+    on "$texts" grep -HnE -- "$marks" | sed 's/^\([^:]*:[0-9]*\):.*/\1: unfinished work/'
+)
+failures=$(printf '%s' "$found" | grep -c .)
+[ "$failures" -eq 0 ] || printf '%s\n' "$found" | sed 's/^/files: /'
+echo "files: $(printf '%s\n' "$texts" | wc -l) files checked, $failures violations"
 [ "$failures" -eq 0 ]
