@@ -2,10 +2,12 @@
 #include "app/check.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <numbers>
 
 #include <nlohmann/json.hpp>
 
@@ -156,27 +158,60 @@ const char* layoutName(io::EnvironmentLayout layout, io::DeclaredLayout declared
     return "none";
 }
 
-/// The layout an environment is read by and its mean over the sphere; where it is none, the mean
-/// over the pixels.
-void addEnvironment(const std::string& file, const io::ImageInfo& info, const PixelFigures& figures,
-                    Json& json) {
-    const core::Result<io::LoadedEnvironment> environment = io::loadEnvironment(file);
-    const bool usable = environment.ok() && environment->layout != io::EnvironmentLayout::SixFiles;
-    json["layout"] = usable ? layoutName(environment->layout, info.layout) : "none";
-    Json mean = Json::array();
-    const glm::dvec4 sphere = usable ? lighting::sphereMean(environment->base, 0) : glm::dvec4(0.0);
-    for (glm::length_t c = 0; c < 3; ++c) {
-        const std::size_t count = figures.finiteCount[c];
-        mean.push_back(usable      ? sphere[c]
-                       : count > 0 ? figures.sum[c] / static_cast<double>(count)
-                                   : 0.0);
+/// Mean over the sphere of a lat-long panorama, from its own pixels: a row's weight is the height
+/// of its band, sin(upper latitude) - sin(lower). Pixels that are not finite are left out.
+std::array<double, 3> latLongMean(const core::Image& image) {
+    std::array<double, 3> sum{};
+    std::array<double, 3> weight{};
+    const int height = image.height();
+    for (int y = 0; y < height; ++y) {
+        const double band =
+            std::cos(std::numbers::pi * y / height) - std::cos(std::numbers::pi * (y + 1) / height);
+        for (int x = 0; x < image.width(); ++x) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double value = image.at(x, y)[c];
+                sum[c] += std::isfinite(value) ? band * value : 0.0;
+                weight[c] += std::isfinite(value) ? band : 0.0;
+            }
+        }
     }
-    json["mean"] = std::move(mean);
+    for (std::size_t c = 0; c < 3; ++c) {
+        sum[c] = weight[c] > 0.0 ? sum[c] / weight[c] : 0.0;
+    }
+    return sum;
+}
+
+std::array<double, 3> pixelMean(const PixelFigures& figures) {
+    std::array<double, 3> mean{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        mean[c] = figures.finiteCount[c] > 0
+                      ? figures.sum[c] / static_cast<double>(figures.finiteCount[c])
+                      : 0.0;
+    }
+    return mean;
+}
+
+/// The layout an environment is read by and its mean over the sphere; where it is none, the mean
+/// over the pixels. Cubes are loaded at their own size, so that the mean is of their own texels.
+void addEnvironment(const std::string& file, const io::ImageInfo& info, const core::Image& image,
+                    const PixelFigures& figures, Json& json) {
+    const bool strip = info.width >= 6 * info.height || info.height >= 6 * info.width;
+    const int faceWidth = std::clamp(
+        strip ? std::min(info.width, info.height) : std::max(info.width, info.height) / 4, 1, 2048);
+    const core::Result<io::LoadedEnvironment> environment = io::loadEnvironment(file, faceWidth);
+    const bool usable = environment.ok() && environment->layout != io::EnvironmentLayout::SixFiles;
+    std::array<double, 3> mean = pixelMean(figures);
+    if (usable && environment->layout == io::EnvironmentLayout::LatLong) {
+        mean = latLongMean(image);
+    } else if (usable) {
+        const glm::dvec4 sphere = lighting::sphereMean(environment->base, 0);
+        mean = {sphere.x, sphere.y, sphere.z};
+    }
+    json["layout"] = usable ? layoutName(environment->layout, info.layout) : "none";
+    json["mean"] = mean;
+    json["warnings"] = usable ? warningsJson(environment->warnings) : Json::object();
     if (usable) {
         warn(environment->warnings, file);
-        json["warnings"] = warningsJson(environment->warnings);
-    } else {
-        json["warnings"] = Json::object();
     }
 }
 
@@ -206,7 +241,7 @@ core::Result<Json> checkImage(const std::string& file, const io::Bytes& bytes) {
     json["min"] = any ? Json(figures.least) : Json(nullptr);
     json["max"] = any ? Json(figures.largest) : Json(nullptr);
     json["nonFinite"] = figures.nonFinite;
-    addEnvironment(file, *info, figures, json);
+    addEnvironment(file, *info, decoded->image, figures, json);
     return json;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // .glb and .gltf up to parsed JSON. Source: glTF 2.0 specification, section 4.4 (GLB).
+#include <algorithm>
 #include <cstring>
+#include <string_view>
 
 #include "io/gltf_internal.h"
 
@@ -83,8 +85,13 @@ core::Result<Json> parseJson(std::span<const unsigned char> text, std::size_t of
         return document;
     } catch (const Json::parse_error& error) {
         return core::refused("is not valid JSON", atByte(offset + error.byte));
-    } catch (const std::exception&) {
-        return core::refused("is not valid JSON: a number is out of range");
+    } catch (const Json::exception& error) {
+        // "[json.exception.out_of_range.406] number overflow parsing '1e999'"
+        const std::string_view message = error.what();
+        return core::refused("is not valid JSON: " + std::string(message.substr(std::min(
+                                                         message.size(), message.find("] ") + 2))));
+    } catch (const std::exception& error) {
+        return core::refused(std::string("is not valid JSON: ") + error.what());
     }
 }
 

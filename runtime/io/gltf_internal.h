@@ -30,11 +30,11 @@ inline constexpr int kMaxNodeDepth = 256;
 /// Buffers of one document, together.
 inline constexpr std::size_t kMaxBufferBytes = std::size_t{1} << 30;
 /// Decoded vertices and indices of one document, together.
-inline constexpr std::size_t kMaxGeometryBytes = std::size_t{1} << 30;
+inline constexpr std::size_t kMaxGeometryBytes = std::size_t{512} << 20;
 /// Images of one document as float pixels, together; as much again may be read in encoded form.
 inline constexpr std::size_t kMaxImageBytes = std::size_t{2} << 30;
 /// Elements of an accessor that has no data (all zeros).
-inline constexpr std::size_t kMaxZeroElements = std::size_t{1} << 24;
+inline constexpr std::size_t kMaxZeroElements = std::size_t{1} << 20;
 /// Where parseModel keeps a primitive's indices: tinygltf 2.7 refuses index accessors without data.
 inline constexpr const char* kIndicesAttribute = "_LODESTAR_INDICES";
 

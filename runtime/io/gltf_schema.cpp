@@ -260,7 +260,9 @@ private:
     static core::Result<void> integer(const Json& value, const Field& field,
                                       const std::string& at) {
         if (!value.is_number_integer()) {
-            return core::refused("must be an integer", at);
+            const bool large = value.is_number() && std::abs(value.get<double>()) > kSizeMax;
+            return core::refused(
+                large ? "is out of range: no integer is that large" : "must be an integer", at);
         }
         const double v = value.get<double>();
         if (!(v >= field.low && v <= field.high)) {

@@ -182,11 +182,18 @@ core::Result<core::Image> decodeWithLibrary(const Bytes& bytes, const ImageInfo&
             return core::Error{
                 core::ErrorCode::Internal, "OpenImageIO was built without " + info.format, {}, {}};
         }
-        MemoryFile file(bytes);
+        // The JPEG reader takes no proxy but the library's own, whose whole buffer it reads in
+        // order.
+        MemoryFile checked(bytes);
+        OIIO::Filesystem::IOMemReader plain(bytes.data(), bytes.size());
         OIIO::ImageSpec config;
         config.attribute("oiio:UnassociatedAlpha", 1);
         OIIO::ImageSpec spec;
-        input->set_ioproxy(&file);
+        if (info.format == "jpeg") {
+            input->set_ioproxy(&plain);
+        } else {
+            input->set_ioproxy(&checked);
+        }
         if (!input->open("image." + info.format, spec, config)) {
             return undecodable(*input, "its header is damaged");
         }
@@ -234,7 +241,7 @@ core::Result<core::Image> decodeStripped(core::Result<detail::StrippedImage> str
 core::Result<core::Image> decodeAs(Format format, const Bytes& bytes, ImageInfo& info) {
     switch (format) {
     case Format::Png:
-        return decodeStripped(detail::pngHeader(bytes), info);
+        return decodeStripped(detail::pngHeader(bytes, true), info);
     case Format::Jpeg:
         return decodeStripped(detail::jpegHeader(bytes), info);
     case Format::Exr:
@@ -271,7 +278,7 @@ core::Result<ImageInfo> imageInfo(const Bytes& bytes) {
     case Format::Hdr:
         return infoOf(detail::hdrHeader(bytes));
     case Format::Png:
-        return infoOf(detail::pngHeader(bytes));
+        return infoOf(detail::pngHeader(bytes, false));
     case Format::Jpeg:
         return infoOf(detail::jpegHeader(bytes));
     case Format::Unknown:

@@ -95,7 +95,8 @@ struct StrippedImage {
     ImageHeader header;
     Bytes bytes;
 };
-[[nodiscard]] core::Result<StrippedImage> pngHeader(const Bytes& bytes);
+/// @param checkPixels whether the compressed data are tried, too
+[[nodiscard]] core::Result<StrippedImage> pngHeader(const Bytes& bytes, bool checkPixels);
 [[nodiscard]] core::Result<StrippedImage> jpegHeader(const Bytes& bytes);
 
 /// Pixels of a Radiance file, 3 channels.
