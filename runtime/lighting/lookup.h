@@ -31,15 +31,17 @@ struct LookupAnswer {
 [[nodiscard]] PreparedParts partsFor(const Estimator& estimator);
 
 /// @pre the environment holds partsFor(request.estimator); the estimator serves the lobe's term
-[[nodiscard]] LookupAnswer lookup(const PreparedEnvironment& environment, const LookupRequest& request);
+[[nodiscard]] LookupAnswer lookup(const PreparedEnvironment& environment,
+                                  const LookupRequest& request);
 
 /// Mean radiance over (s+1)/(2 pi) max(r.l, 0)^s, double precision over all texels with exact solid
 /// angles, divided by the weights' own sum, so that a constant map is exact.
 /// @param direction unit  @param exponent [0, 1e7]; a lobe narrower than a texel reads bilinearly
-[[nodiscard]] glm::dvec3 referencePhong(const Cubemap& base, const glm::dvec3& direction, double exponent);
+[[nodiscard]] glm::dvec3 referencePhong(const Cubemap& base, const glm::dvec3& direction,
+                                        double exponent);
 
-/// Mean radiance over the normalised Blinn-Phong lobe (n.h)^s (n.l) about n seen from v, the weights
-/// divided by their sum: what the lookup conversion is fitted to.
+/// Mean radiance over the normalised Blinn-Phong lobe (n.h)^s (n.l) about n seen from v, the
+/// weights divided by their sum: what the lookup conversion is fitted to.
 [[nodiscard]] glm::dvec3 referenceBlinnPhong(const Cubemap& base, const glm::dvec3& normal,
                                              const glm::dvec3& view, double exponent);
 
