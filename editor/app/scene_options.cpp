@@ -200,7 +200,7 @@ core::Result<LoadedScene> load(const SceneOptions& options) {
     } else {
         auto environment = io::loadEnvironment(options.environment, options.cubeWidth);
         if (!environment) {
-            return environment.error();
+            return core::inFile(environment.error(), options.environment);
         }
         loaded.environment = std::move(*environment);
     }

@@ -31,8 +31,7 @@ std::string ownScene(const TemporaryFolder& folder) {
 core::Image render(const TemporaryFolder& folder, const std::string& scene, const char* driver,
                    const char* threads, const std::string& name, const std::string& environment) {
     const std::string picture = folder.file(name);
-    std::vector<std::string> arguments = {"render", scene,     "-o",        picture,
-                                          "--size", "160x120", "--samples", "1"};
+    std::vector<std::string> arguments = {"render", scene, "-o", picture, "--size", "240x180"};
     if (!environment.empty()) {
         arguments.insert(arguments.end(), {"--environment", environment});
     }
@@ -62,16 +61,21 @@ TEST(Drivers, SoftpipeShowsOwnScene) {
     EXPECT_LE(compare(llvmpipe, softpipe, 5.0 / 255.0).failingFraction, 0.001);
 }
 
+// Real scenes under a smooth environment. Under a sharp HDR panorama the drivers differ more, for
+// reasons of theirs (docs/testing.md): softpipe takes one of the three texels at a cube's corner
+// where GL asks for their mean, and the drivers snap vertices to different sub-pixel grids, which
+// turns the normals of slivers at silhouettes.
 TEST(Drivers, SoftpipeShowsRealScenes) {
     LODESTAR_NEEDS_SHARED();
     const TemporaryFolder folder;
-    const std::string park = sharedPath("assets/hdr/pmndrs/park.hdr").string();
-    for (const char* name : {"gltf/babylon/PBR_Spheres.glb", "gltf/vulkan-samples/teapot.gltf",
-                             "gltf/khronos/BoxTextured/glTF/BoxTextured.gltf",
-                             "gltf/babylon/blenderStudio/studio.gltf"}) {
+    for (const char* name :
+         {"gltf/babylon/PBR_Spheres.glb", "gltf/vulkan-samples/teapot.gltf",
+          "gltf/MaterialX/shaderball.glb", "gltf/babylon/blenderStudio/studio.gltf"}) {
         const std::string scene = (sharedPath("assets") / name).string();
-        const core::Image llvmpipe = render(folder, scene, "llvmpipe", "2", "a.png", park);
-        const core::Image softpipe = render(folder, scene, "softpipe", "2", "b.png", park);
+        const core::Image llvmpipe =
+            render(folder, scene, "llvmpipe", "2", "a.png", "gradient:0.1,1");
+        const core::Image softpipe =
+            render(folder, scene, "softpipe", "2", "b.png", "gradient:0.1,1");
         EXPECT_LE(compare(llvmpipe, softpipe, 5.0 / 255.0).failingFraction, 0.001) << name;
     }
 }
