@@ -50,11 +50,11 @@ install_packages() {
     return $status
 }
 
-# configure_build: one optimised build tree for tests and samples, in build/.
+# configure_build OPTION...: one optimised build tree for tests and samples, in build/.
 configure_build() {
     local log status=0
     log=$(mktemp)
-    cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release >"$log" 2>&1 || status=1
+    cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release "$@" >"$log" 2>&1 || status=1
     [ $status -eq 0 ] || tail -n 30 "$log" >&2
     rm -f "$log"
     return $status

@@ -138,7 +138,7 @@ groups="build test"
 [ $mode = long ] && groups="$groups long"
 # shellcheck disable=SC2086
 install_packages $groups || stop "packages are missing"
-configure_build || stop "the build cannot be configured"
+configure_build -DLODESTAR_BUILD_TESTS=ON || stop "the build cannot be configured"
 say "building"
 if [ $mode = quick ]; then
     build build all || stop "the build failed"

@@ -66,7 +66,7 @@ float softBoxCover(const SoftBox& box, const glm::vec3& direction) {
     const float v = std::abs(glm::dot(offset, box.up)) / glm::dot(box.up, box.up);
     // Brighter in the middle, as a lamp behind cloth is.
     const float glow = 1.0f - 0.35f * (u * u + v * v) * 0.5f;
-    return smoothStep(1.0f, 0.96f, u) * smoothStep(1.0f, 0.96f, v) * glow;
+    return smoothStep(1.0f, 0.8f, u) * smoothStep(1.0f, 0.8f, v) * glow;
 }
 
 constexpr int kGlyphWidth = 7;

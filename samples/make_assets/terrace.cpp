@@ -266,8 +266,8 @@ void addTable(GltfWriter& writer, const Palette& palette, std::vector<Occluder>&
         }
     }
     for (const float x : {-0.8f, -0.27f, 0.27f, 0.8f}) {
-        for (const float z : {-0.28f, 0.28f}) {
-            stage.shade({x, 0.8f, z}, 0.36f);
+        for (const float z : {-0.33f, 0.0f, 0.33f}) {
+            stage.shade({x, 0.72f, z}, 0.42f);
         }
     }
 }
@@ -359,7 +359,7 @@ core::Result<void> writeTerrace(const std::filesystem::path& folder) {
     addTable(writer, palette, onFloor);
     addOrnaments(writer, palette, onFloor);
     addStillLife(writer, palette, onTable);
-    writer.addCamera("terrace", {0.75f, 1.62f, 4.3f}, {0.12f, 0.92f, -0.6f}, 38.0f);
+    writer.addCamera("terrace", {0.7f, 1.5f, 4.0f}, {0.16f, 0.88f, -0.6f}, 37.0f);
     writer.addCamera("table", {0.62f, 1.36f, 1.75f}, {0.08f, 0.93f, -0.05f}, 33.0f);
     writer.addCamera("steps", {3.9f, 1.35f, 1.9f}, {2.0f, 0.75f, -0.9f}, 36.0f);
     if (core::Result<void> written = writeTextures(folder, onFloor, onTable); !written) {

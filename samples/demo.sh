@@ -1,0 +1,165 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# From a bare Debian 12 to the pictures: installs what is missing, builds, renders. See --help.
+set -u
+cd "$(dirname "$0")/.." || exit 1
+. cmake/packages.sh
+
+usage() {
+    cat <<'TEXT'
+samples/demo.sh [--help]
+
+Installs the Debian packages that are missing (as root or through sudo), builds Lodestar in build/
+(the tree that tests/run.sh uses), computes the demo's panoramas and scenes and renders them into
+out/demo/, without a display. Some minutes the first time, half a minute after.
+
+Environment: LIBGL_ALWAYS_SOFTWARE=0 renders with the machine's own driver (default 1: llvmpipe).
+TEXT
+}
+
+case ${1:-} in
+"") ;;
+--help | -h)
+    usage
+    exit 0
+    ;;
+*)
+    echo "samples/demo.sh: no such option: $1 (see --help)" >&2
+    exit 2
+    ;;
+esac
+
+export LIBGL_ALWAYS_SOFTWARE=${LIBGL_ALWAYS_SOFTWARE:-1}
+out=out/demo
+assets=$out/assets
+parts=$out/parts
+total=11
+step=0
+started=$SECONDS
+
+# next TEXT: says which step begins.
+next() {
+    step=$((step + 1))
+    printf '[%d/%d] %s  (%d s)\n' "$step" "$total" "$*" $((SECONDS - started))
+}
+
+stop() {
+    echo "samples/demo.sh: $*" >&2
+    exit 1
+}
+
+# render NAME SCENE OPTIONS...: one picture, parts/NAME.png unless NAME holds a slash.
+render() {
+    local name=$1 scene=$2 file
+    shift 2
+    case $name in
+    */*) file=$name ;;
+    *) file=$parts/$name.png ;;
+    esac
+    build/lodestar render "$assets/$scene.gltf" -o "$file" "$@" || stop "$file could not be rendered"
+}
+
+# sheet NAME OPTIONS...: joins pictures into out/demo/NAME.png.
+sheet() {
+    local name=$1
+    shift
+    build/lodestar-compose -o "$out/$name.png" "$@" || stop "$out/$name.png could not be composed"
+}
+
+build() {
+    local log
+    log=$(mktemp)
+    # A tree that is there keeps its configuration; the tests need packages that the demo does not.
+    if [ ! -f build/CMakeCache.txt ]; then
+        configure_build -DLODESTAR_BUILD_TESTS=OFF || stop "the build cannot be configured"
+    fi
+    if ! cmake --build build --target lodestar lodestar-make-assets lodestar-compose >"$log" 2>&1; then
+        grep -E 'error|FAILED' "$log" | head -n 20 >&2
+        rm -f "$log"
+        stop "the build failed"
+    fi
+    rm -f "$log"
+}
+
+next "packages"
+install_packages build || stop "packages are missing"
+next "building lodestar and the demo's programs"
+build
+
+next "panoramas and scenes"
+mkdir -p "$assets" "$parts" || stop "$out cannot be made"
+if [ ! -f "$assets/.made" ] || [ build/lodestar-make-assets -nt "$assets/.made" ]; then
+    build/lodestar-make-assets "$assets" || stop "the assets could not be made"
+    touch "$assets/.made"
+fi
+
+courtyard="--environment $assets/courtyard.exr --exposure -1.3"
+studio="--environment $assets/studio.exr"
+# shellcheck disable=SC2086 # lists of options
+{
+    next "figure 1: one shape, seven exponents"
+    row="--no-backdrop --size 1232x176 $courtyard"
+    render figure1_before figure1 $row --specular bias:0 --diffuse lowest-mip
+    render figure1_published figure1 $row --specular mip --diffuse lowest-mip
+    render figure1_default figure1 $row
+    sheet figure1 --title "One environment map, seven materials" \
+        --note "Blinn-Phong exponents of a glossy glaze, no preprocessing of the map" \
+        --columns "1|4|16|64|256|1024|mirror" \
+        --row "Before: a mirror lookup, whatever the exponent" "$parts/figure1_before.png" \
+        --row "As published: one fetch from standard mips, diffuse from the coarsest" "$parts/figure1_published.png" \
+        --row "Lodestar's default: one fetch from tent mips, diffuse from an irradiance cube" "$parts/figure1_default.png"
+
+    next "figure 2: exponents by reflectances"
+    render figure2_grid figure2 --no-backdrop --size 1232x770 $courtyard
+    sheet figure2 --title "Exponents by reflectances" \
+        --note "Rows: glaze of F0 0.04, F0 0.2, F0 0.5, gold, silver" \
+        --columns "0|1|4|16|64|256|1024|mirror" --row "" "$parts/figure2_grid.png"
+
+    next "figure 3: normal and exponent maps"
+    render figure3_flat figure3_flat --size 560x560 $courtyard
+    render figure3_normal figure3 --size 560x560 $courtyard
+    sheet figure3 --title "A crate: texture decides the gloss" \
+        --note "The exponent map is 8 bits of log2(s + 1): worn wood, varnish and iron in one draw" \
+        --row "" "$parts/figure3_flat.png::exponent map alone" "$parts/figure3_normal.png::with its normal map" \
+        "$assets/crate_exponent.png::the exponent map"
+
+    next "Ashikhmin and Ghosh's figure 1: a least level per object"
+    cell="--no-backdrop --size 400x400 $courtyard"
+    white="diffuse=0.75,0.72,0.66,f0=0,0,0,exponent=1"
+    for level in 0 3.5 5; do
+        render "ashikhmin_$level" ashikhmin $cell --specular "bias:$level"
+    done
+    render ashikhmin_diffuse ashikhmin $cell --diffuse bias:7 --override-material "$white"
+    sheet ashikhmin --title "Simple blurry reflections" \
+        --note "A least mip level for the whole object, 256 texels a face" --row "" \
+        "$parts/ashikhmin_0.png::0" "$parts/ashikhmin_3.5.png::3.5" "$parts/ashikhmin_5.png::5" \
+        "$parts/ashikhmin_diffuse.png::7, about the normal"
+
+    next "seams between cube faces, before and after"
+    render seams_glossy ashikhmin $cell --specular bias:5 --face-seams
+    render seams_diffuse ashikhmin $cell --diffuse bias:7 --override-material "$white" --face-seams
+    sheet seams --title "Seams" --note "Each face filtered on its own, and across its edges" --row "" \
+        "$parts/seams_glossy.png::level 5, per face" "$parts/ashikhmin_5.png::level 5, seamless" \
+        "$parts/seams_diffuse.png::level 7, per face" "$parts/ashikhmin_diffuse.png::level 7, seamless"
+
+    next "estimators side by side"
+    row="--no-backdrop --size 1232x246 $studio"
+    for estimator in mip mip-floor tent; do
+        render "estimators_$estimator" estimators $row --specular $estimator
+    done
+    sheet estimators --title "One fetch, three ways" --note "White spheres under five soft boxes, by exponent" \
+        --columns "2|8|32|128|2048" \
+        --row "mip: standard mips, the exponent as given" "$parts/estimators_mip.png" \
+        --row "mip-floor: the same, no finer than the pixel" "$parts/estimators_mip-floor.png" \
+        --row "tent: mips filtered across faces, fitted direction and level" "$parts/estimators_tent.png"
+
+    next "the terrace"
+    render $out/terrace.png terrace --size 1280x720 --camera terrace --environment-width 512 $courtyard
+    next "the terrace's table"
+    render $out/table.png terrace --size 1280x720 --camera table --environment-width 512 $courtyard
+}
+
+echo "done in $((SECONDS - started)) s; look at:"
+for picture in figure1 figure2 figure3 ashikhmin seams estimators terrace table; do
+    echo "    $out/$picture.png"
+done
