@@ -423,6 +423,13 @@ core::Result<void> checkSchema(const Json& document) {
                                  " nodes; the limit is " + std::to_string(kMaxNodes),
                              "/nodes");
     }
+    // Before anything that points into them: else the pointer's end would be blamed.
+    for (const Field& field : kDocument) {
+        const Json* found = member(document, field.key);
+        if (field.kind == Kind::Objects && found != nullptr && !found->is_array()) {
+            return core::refused("must be an array", std::string("/") + field.key);
+        }
+    }
     Checker checker(document);
     core::Result<void> checked = checker.fields(document, kDocument, "");
     for (const auto check : {checkExtensions, checkChannels, checkTargets}) {
