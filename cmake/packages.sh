@@ -2,9 +2,10 @@
 # The Debian 12 packages that the repository needs, and a function that installs the missing ones.
 # To be sourced: . cmake/packages.sh; install_packages build test
 
+# openimageio-tools is not used, but the CMake package of libopenimageio-dev refuses to load without it.
 LODESTAR_PACKAGES_build="cmake ninja-build g++ pkg-config ca-certificates
-    libglm-dev libopenimageio-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev
-    libepoxy-dev libegl-dev libgl-dev libopengl-dev libegl1 libegl-mesa0 libgl1-mesa-dri"
+    libglm-dev libopenimageio-dev openimageio-tools libtinygltf-dev nlohmann-json3-dev libcli11-dev
+    zlib1g-dev libepoxy-dev libegl-dev libgl-dev libopengl-dev libegl1 libegl-mesa0 libgl1-mesa-dri"
 # blender-data holds the panoramas that accuracy is measured on.
 LODESTAR_PACKAGES_test="libgtest-dev librapidcheck-dev clang-format-14 blender-data"
 LODESTAR_PACKAGES_bench="libbenchmark-dev"
