@@ -26,7 +26,8 @@ public:
     [[nodiscard]] static core::Result<AssetRoot> open(const std::filesystem::path& folder);
 
     /// Reads a regular file by a path relative to the root. Never blocks on a FIFO or device.
-    /// @errors InputRefused naming the path: missing, outside the root, not a regular file, too large
+    /// @errors InputRefused naming the path: missing, outside the root, not a regular file, too
+    /// large
     [[nodiscard]] core::Result<Bytes> read(const std::string& relativePath,
                                            std::size_t maxBytes = kMaxFileBytes) const;
 
@@ -39,8 +40,8 @@ private:
 [[nodiscard]] core::Result<Bytes> readFile(const std::filesystem::path& path,
                                            std::size_t maxBytes = kMaxFileBytes);
 
-/// Writes a file whole: to a temporary beside it, flushed, then renamed over. On failure the old file
-/// is untouched and no temporary stays. @errors OutputFailed
+/// Writes a file whole: to a temporary beside it, flushed, then renamed over. On failure the old
+/// file is untouched and no temporary stays. @errors OutputFailed
 [[nodiscard]] core::Result<void> writeFile(const std::filesystem::path& path, const void* data,
                                            std::size_t size);
 

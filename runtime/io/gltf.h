@@ -90,12 +90,12 @@ enum class Topology { Points, Lines, Triangles };
 struct GltfPrimitive {
     Topology topology = Topology::Triangles;
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;          ///< unit, or empty
-    std::vector<glm::vec4> tangents;         ///< w is the handedness; empty if the file has none
-    std::vector<glm::vec2> uvs[2];           ///< empty if absent
-    std::vector<glm::vec4> colors;           ///< linear; empty if absent
-    std::vector<std::uint32_t> indices;      ///< every one < positions.size()
-    int material = kNone;                    ///< kNone: glTF's default material
+    std::vector<glm::vec3> normals;     ///< unit, or empty
+    std::vector<glm::vec4> tangents;    ///< w is the handedness; empty if the file has none
+    std::vector<glm::vec2> uvs[2];      ///< empty if absent
+    std::vector<glm::vec4> colors;      ///< linear; empty if absent
+    std::vector<std::uint32_t> indices; ///< every one < positions.size()
+    int material = kNone;               ///< kNone: glTF's default material
 };
 
 struct GltfMesh {
@@ -107,8 +107,8 @@ struct GltfMesh {
 struct GltfCamera {
     std::string name;
     bool perspective = true;
-    float verticalFov = 0.8f;  ///< radians, perspective
-    float aspect = 0.0f;       ///< 0: the viewport's
+    float verticalFov = 0.8f;                           ///< radians, perspective
+    float aspect = 0.0f;                                ///< 0: the viewport's
     float xMagnification = 1.0f, yMagnification = 1.0f; ///< orthographic half extents
     float nearPlane = 0.01f;
     float farPlane = std::numeric_limits<float>::infinity();
@@ -121,7 +121,8 @@ struct GltfLight {
     std::string name;
     LightKind kind = LightKind::Point;
     glm::vec3 color{1.0f};
-    float intensity = 1.0f; ///< lux for directional (= irradiance), candela else (= radiant intensity)
+    float intensity =
+        1.0f; ///< lux for directional (= irradiance), candela else (= radiant intensity)
     float range = std::numeric_limits<float>::infinity(); ///< metres
     float innerConeAngle = 0.0f;                          ///< radians
     float outerConeAngle = 0.785398163f;                  ///< radians, (inner, pi/2]
@@ -155,7 +156,8 @@ struct GltfFile {
     std::vector<GltfMesh> meshes;
     std::vector<GltfMaterial> materials;
     std::vector<GltfTexture> textures;
-    std::vector<core::Image> images; ///< 4 channels, as stored; 1x1 white where decoding failed (counted)
+    std::vector<core::Image>
+        images; ///< 4 channels, as stored; 1x1 white where decoding failed (counted)
     std::vector<GltfCamera> cameras;
     std::vector<GltfLight> lights;
     std::vector<std::string> extensionsUsed;

@@ -28,7 +28,8 @@ struct ImageInfo {
 };
 
 struct DecodedImage {
-    core::Image image; ///< as stored: linear for EXR and HDR, encoded as in the file for PNG and JPEG
+    core::Image
+        image; ///< as stored: linear for EXR and HDR, encoded as in the file for PNG and JPEG
     ImageInfo info;
 };
 
@@ -45,6 +46,7 @@ struct DecodedImage {
 /// Writes linear float pixels as EXR (half or float), or encoded [0, 1] pixels as 8-bit PNG, by the
 /// path's extension; whole or not at all. Non-finite pixels are a contract violation: the renderer
 /// has none. @errors OutputFailed
-[[nodiscard]] core::Result<void> writeImage(const std::filesystem::path& path, const core::Image& image);
+[[nodiscard]] core::Result<void> writeImage(const std::filesystem::path& path,
+                                            const core::Image& image);
 
 } // namespace lodestar::io

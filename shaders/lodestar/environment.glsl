@@ -136,7 +136,8 @@ LODESTAR_FN vec3 lodestar_environment(LodestarCube cube, LodestarSurface surface
     vec3 lambert = lodestar_host_irradiance(cube.slot, surface.normal);
 #if LODESTAR_SPECULAR == LODESTAR_SPECULAR_TENT
     // At exponent 0 the lobe is Lambert's, whose light is at hand already and better than any mip's.
-    glossy = mix(glossy, lambert, clamp(1.0f - surface.exponent, Real(0.0f), Real(1.0f)));
+    glossy = mix(glossy, lambert,
+                 max(1.0f - lodestar_repairExponent(surface.exponent), Real(0.0f)));
 #endif
     return surface.diffuse * (vec3(1.0f) - fresnel) * lambert * surface.occlusion +
            fresnel * glossy * lodestar_specularOcclusion(surface.occlusion, surface.exponent);
