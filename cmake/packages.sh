@@ -8,7 +8,7 @@ LODESTAR_PACKAGES_build="cmake ninja-build g++ pkg-config ca-certificates
     zlib1g-dev libepoxy-dev libegl-dev libgl-dev libopengl-dev libegl1 libegl-mesa0 libgl1-mesa-dri"
 # blender-data holds the panoramas that accuracy is measured on.
 LODESTAR_PACKAGES_test="libgtest-dev librapidcheck-dev clang-format-14 blender-data"
-LODESTAR_PACKAGES_bench="libbenchmark-dev"
+LODESTAR_PACKAGES_bench="libbenchmark-dev libfilament-tools"
 LODESTAR_PACKAGES_long="clang-14 clang-tidy-14"
 
 # install_packages GROUP...: installs what is missing, as root or through sudo. One line of progress;

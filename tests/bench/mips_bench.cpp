@@ -58,7 +58,7 @@ int main() {
     setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
     auto context = lodestar::platform::HeadlessContext::create();
     if (!context) {
-        std::fprintf(stderr, "mips_bench: %s\n", context.error().message().c_str());
+        std::fprintf(stderr, "bench-mips: %s\n", context.error().message().c_str());
         return 4;
     }
     namespace lighting = lodestar::lighting;

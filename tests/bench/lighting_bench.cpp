@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+//
+// What each step from a panorama to usable lighting costs on one core, and one lookup by each
+// estimator. build/bench-lighting --benchmark_counters_tabular=true
+#include <benchmark/benchmark.h>
+#include <glm/geometric.hpp>
+
+#include "lighting/environment.h"
+#include "lighting/lookup.h"
+#include "lighting/mips.h"
+
+namespace {
+
+using namespace lodestar;
+
+core::Image panorama() {
+    core::Image image(1024, 512, 3);
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            float* pixel = image.at(x, y);
+            pixel[0] = static_cast<float>((x * 7 + y * 13) % 64) / 32.0f;
+            pixel[1] = static_cast<float>(y) / 512.0f;
+            pixel[2] = x == 300 && y == 100 ? 20000.0f : 0.5f;
+        }
+    }
+    return image;
+}
+
+const lighting::Cubemap& cube() {
+    static const lighting::Cubemap map = lighting::cubeFromLatLong(panorama(), 256);
+    return map;
+}
+
+void cubeFromLatLong(benchmark::State& state) {
+    const core::Image image = panorama();
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(
+            lighting::cubeFromLatLong(image, static_cast<int>(state.range(0))));
+    }
+}
+BENCHMARK(cubeFromLatLong)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
+
+template <auto make>
+void step(benchmark::State& state) {
+    static_cast<void>(cube());
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(make(cube()));
+    }
+}
+BENCHMARK(step<&lighting::boxMips>)->Name("boxMips/256")->Unit(benchmark::kMillisecond);
+BENCHMARK(step<&lighting::solidAngleMips>)
+    ->Name("solidAngleMips/256")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(step<&lighting::tentMips>)->Name("tentMips/256")->Unit(benchmark::kMillisecond);
+BENCHMARK(step<&lighting::irradianceCube>)
+    ->Name("irradianceCube/256")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(step<&lighting::sh9FromCube>)->Name("sh9FromCube/256")->Unit(benchmark::kMillisecond);
+
+void lookup(benchmark::State& state, const char* name) {
+    lighting::LookupRequest request;
+    request.lobe = lighting::Lobe::Phong;
+    request.exponent = 64.0;
+    request.direction = glm::normalize(glm::dvec3(0.3, 0.5, -0.8));
+    request.estimator = *lighting::parseEstimator(name, lighting::Term::Glossy);
+    const lighting::PreparedEnvironment environment =
+        lighting::prepare(cube(), lighting::partsFor(request.estimator));
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(lighting::lookup(environment, request));
+    }
+}
+BENCHMARK_CAPTURE(lookup, mip, "mip");
+BENCHMARK_CAPTURE(lookup, tent, "tent");
+BENCHMARK_CAPTURE(lookup, reference, "reference")->Unit(benchmark::kMillisecond);
+
+} // namespace
+
+BENCHMARK_MAIN();
