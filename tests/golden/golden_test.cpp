@@ -169,8 +169,11 @@ TEST_F(Goldens, EachFailsAgainstEveryOtherAndAgainstPlantedFaults) {
             }
         }
         for (const Fault& fault : kFaults) {
-            EXPECT_FALSE(passes(golden, kept, render(golden, fault)))
-                << golden.name << " " << fault.name;
+            const core::Image faulty = render(golden, fault);
+            const Difference d = relative(kept, faulty);
+            std::printf("%-22s %-24s mean %.5f, beyond 1/255 %.4f\n", golden.name, fault.name,
+                        d.mean, d.failingFraction);
+            EXPECT_FALSE(passes(golden, kept, faulty)) << golden.name << " " << fault.name;
         }
     }
 }
