@@ -157,7 +157,7 @@ void addSun(core::Image& panorama, const SunDisc& sun) {
 
 glm::vec3 studioRadiance(const glm::vec3& direction) {
     static const SoftBox kBoxes[] = {
-        {{-3.0f, 2.6f, 2.4f}, {0.75f, 0.0f, 0.94f}, {-0.5f, 1.0f, 0.4f}, {11.0f, 9.6f, 8.0f}},
+        {{-2.2f, 1.9f, 3.2f}, {0.78f, 0.0f, 0.54f}, {0.18f, 0.63f, -0.25f}, {11.0f, 9.6f, 8.0f}},
         {{3.2f, 0.9f, 0.8f}, {0.08f, 0.0f, -0.30f}, {0.0f, 1.9f, 0.0f}, {3.2f, 6.4f, 12.0f}},
         {{0.4f, 3.4f, -1.8f}, {1.5f, 0.0f, 0.0f}, {0.0f, 0.15f, 0.28f}, {7.0f, 7.0f, 7.4f}},
         {{-3.2f, 0.2f, -2.2f}, {0.25f, 0.0f, -0.36f}, {0.0f, 0.8f, 0.0f}, {9.0f, 2.2f, 1.0f}},

@@ -309,16 +309,16 @@ void addOrnaments(GltfWriter& writer, const Palette& palette, std::vector<Occlud
     Stage stage(writer, occluders);
     stage.place("golden ball", writer.addMesh("golden ball", sphere(0.42f, 128, 64), palette.gold),
                 {2.35f, 0.90f, -0.95f});
-    stage.place("jar", writer.addMesh("jar", vase(), palette.ceramic), {-1.75f, 0.0f, 0.55f}, 0.0f,
+    stage.place("jar", writer.addMesh("jar", vase(), palette.ceramic), {-1.62f, 0.0f, 0.35f}, 0.0f,
                 1.35f);
-    stage.shade({-1.75f, 0.33f, 0.55f}, 0.36f);
+    stage.shade({-1.62f, 0.33f, 0.35f}, 0.36f);
     stage.place("pot", writer.addMesh("pot", vase(), palette.clay), {-1.95f, 0.0f, -1.3f}, 0.0f,
                 1.1f);
     stage.shade({-1.95f, 0.27f, -1.3f}, 0.3f);
     stage.place("bush", writer.addMesh("bush", bush(), palette.leaf), {-1.95f, 1.05f, -1.3f});
     stage.place("silver ball", writer.addMesh("silver ball", sphere(0.16f), palette.steel),
-                {1.45f, 0.16f, 0.85f});
-    stage.shade({1.45f, 0.16f, 0.85f}, 0.16f);
+                {1.35f, 0.16f, 0.72f});
+    stage.shade({1.35f, 0.16f, 0.72f}, 0.16f);
 }
 
 core::Result<void> writeTextures(const std::filesystem::path& folder,
@@ -359,7 +359,7 @@ core::Result<void> writeTerrace(const std::filesystem::path& folder) {
     addTable(writer, palette, onFloor);
     addOrnaments(writer, palette, onFloor);
     addStillLife(writer, palette, onTable);
-    writer.addCamera("terrace", {0.7f, 1.5f, 4.0f}, {0.16f, 0.88f, -0.6f}, 37.0f);
+    writer.addCamera("terrace", {0.7f, 1.5f, 4.3f}, {0.14f, 0.86f, -0.6f}, 37.0f);
     writer.addCamera("table", {0.62f, 1.36f, 1.75f}, {0.08f, 0.93f, -0.05f}, 33.0f);
     writer.addCamera("steps", {3.9f, 1.35f, 1.9f}, {2.0f, 0.75f, -0.9f}, 36.0f);
     if (core::Result<void> written = writeTextures(folder, onFloor, onTable); !written) {
