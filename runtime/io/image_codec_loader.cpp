@@ -1,15 +1,35 @@
 // SPDX-License-Identifier: MIT
-#include <dlfcn.h>
-
 #include "io/image_codec.h"
+
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include <dlfcn.h>
 
 namespace lodestar::io {
 namespace {
 
+/// The module in the folder of the program or library that this code is part of. The run path would
+/// find it too, but not under the address sanitizer, whose own dlopen has the run path of libasan.
+std::string besideThis() {
+    Dl_info info{};
+    if (dladdr(reinterpret_cast<const void*>(&besideThis), &info) == 0 ||
+        info.dli_fname == nullptr) {
+        return LODESTAR_CODEC_MODULE;
+    }
+    std::error_code code;
+    const std::filesystem::path here = std::filesystem::canonical(info.dli_fname, code);
+    return code ? LODESTAR_CODEC_MODULE : (here.parent_path() / LODESTAR_CODEC_MODULE).string();
+}
+
 core::Result<const ImageCodec*> load() {
-    // Found by the run path of the program, which names its own folder. Never unloaded: OpenImageIO
-    // keeps threads and tables.
-    void* module = dlopen(LODESTAR_CODEC_MODULE, RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE);
+    // Never unloaded: OpenImageIO keeps threads and tables.
+    constexpr int kFlags = RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE;
+    void* module = dlopen(besideThis().c_str(), kFlags);
+    if (module == nullptr) {
+        module = dlopen(LODESTAR_CODEC_MODULE, kFlags);
+    }
     void* entry = module != nullptr ? dlsym(module, "lodestarImageCodec") : nullptr;
     if (entry == nullptr) {
         const char* reason = dlerror();
