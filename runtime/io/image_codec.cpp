@@ -42,7 +42,7 @@ private:
     const Bytes& bytes_;
 };
 
-std::string firstLine(std::string text) {
+std::string firstLine(const std::string& text) {
     const std::size_t end = text.find('\n');
     return end == std::string::npos ? text : text.substr(0, end);
 }

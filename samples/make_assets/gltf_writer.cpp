@@ -188,7 +188,7 @@ int GltfWriter::addCamera(const std::string& name, const glm::vec3& eye, const g
 core::Result<void> GltfWriter::write(const std::filesystem::path& folder) const {
     Json root = root_;
     root["buffers"] = Json::array({{{"uri", name_ + ".bin"}, {"byteLength", bytes_.size()}}});
-    const core::Result<void> data =
+    core::Result<void> data =
         io::writeFile(folder / (name_ + ".bin"), bytes_.data(), bytes_.size());
     if (!data) {
         return data;

@@ -143,8 +143,9 @@ void addSun(core::Image& panorama, const SunDisc& sun) {
             }
             int inside = 0;
             for (int s = 0; s < kSamples * kSamples; ++s) {
+                const int row = s / kSamples;
                 const float u = (static_cast<float>(s % kSamples) + 0.5f) / kSamples;
-                const float v = (static_cast<float>(s / kSamples) + 0.5f) / kSamples;
+                const float v = (static_cast<float>(row) + 0.5f) / kSamples;
                 inside += glm::dot(at(u, v), sun.direction) >= cosRadius ? 1 : 0;
             }
             const float share = static_cast<float>(inside) / (kSamples * kSamples);
