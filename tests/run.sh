@@ -165,7 +165,7 @@ cmake -S . -B build-asan -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DLODESTAR_S
 export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=0:allocator_may_return_null=1}
 export UBSAN_OPTIONS=${UBSAN_OPTIONS:-halt_on_error=1:print_stacktrace=1}
 if [ $mode = long ]; then
-    export LODESTAR_FUZZ_FACTOR=10
+    export LODESTAR_FUZZ_FACTOR=10 RC_PARAMS="max_success=1000"
     build build-asan all || stop "the sanitizer build failed"
     count "sanitized unit" build-asan -L '^unit$' --timeout 1800
     count "sanitized numerics" build-asan -L '^numerics$' --timeout 3600

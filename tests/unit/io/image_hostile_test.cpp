@@ -5,6 +5,7 @@
 
 #include <rapidcheck.h>
 
+#include "support/fuzz.h"
 #include "support/shared.h"
 #include "unit/io/image_support.h"
 
@@ -46,8 +47,9 @@ TEST(HostileImage, CutOffIsRefused) {
 
 TEST(HostileImage, FlippedBitsNeverCrash) {
     std::mt19937 random(20250101);
+    const int rounds = testing::fuzzRounds(150);
     for (const Sample& sample : goodImages()) {
-        for (int i = 0; i < 150; ++i) {
+        for (int i = 0; i < rounds; ++i) {
             io::Bytes spoiled = sample.bytes;
             const int flips = 1 + static_cast<int>(random() % 8);
             for (int k = 0; k < flips; ++k) {
