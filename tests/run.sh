@@ -10,10 +10,11 @@ usage() {
 tests/run.sh [--quick | --long] [--help]
 
 Installs the Debian packages that are missing, builds everything in build/ (the tree that
-samples/demo.sh uses), and runs every kind of test but the benchmarks.
+samples/demo.sh uses), and runs every kind of test but the benchmarks; then the tests of untrusted
+input again under the address and undefined-behaviour sanitizers, in build-asan/.
 
-  --quick   label unit only: the inner loop
-  --long    sanitizers over unit, numerics, parity and gl too (build-asan/), ten times the fuzzing, clang-tidy
+  --quick   label unit only, no sanitizers: the inner loop
+  --long    sanitizers over unit, numerics, parity and gl as well, ten times the fuzzing, clang-tidy
   --help    this text
 
 One label alone: ctest --test-dir build -L parity
@@ -157,8 +158,6 @@ for label in $others; do
 done
 [ -z "$(ctest --test-dir build -N -LE '.' | sed -n 's/^Total Tests: //p' | grep -vx 0)" ] || stop "a test has no label"
 
-[ $mode = long ] || finish
-
 say "building with sanitizers"
 cmake -S . -B build-asan -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DLODESTAR_SANITIZE=ON \
     -DLODESTAR_BUILD_SAMPLES=OFF >/dev/null 2>&1 || stop "the sanitizer build cannot be configured"
@@ -177,5 +176,8 @@ if [ $mode = long ]; then
     else
         failed=$((failed + 1))
     fi
+else
+    build build-asan tests/unit/io/all || stop "the sanitizer build failed"
+    count "sanitized io" build-asan/tests/unit/io
 fi
 finish
