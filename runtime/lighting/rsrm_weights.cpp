@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#include "lighting/rsrm_weights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "core/contract.h"
+#include "core/quadrature.h"
+#include "lighting/vector_clones.h"
+
+namespace lodestar::lighting {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+/// The lobe's part below e^-45 of its value at the cap's edge is left out: 3e-20.
+constexpr double kCut = 45.0;
+
+/// Gauss nodes are shared by all calls; built on first use.
+const core::GaussRule& rule() {
+    static const core::GaussRule nodes = core::gaussLegendre(64);
+    return nodes;
+}
+
+/// cos^s a with 0^0 = 1.
+double power(double logCosine, double s) {
+    return s == 0.0 ? 1.0 : std::exp(s * logCosine);
+}
+
+/// (sin psi - psi cos psi) / psi, by its series where the difference cancels.
+double excessOfShare(double psi) {
+    if (psi < 0.3) {
+        const double p = psi * psi;
+        return p / 3.0 * (1.0 - p / 10.0 * (1.0 - p / 28.0 * (1.0 - p / 54.0)));
+    }
+    return std::sin(psi) / psi - std::cos(psi);
+}
+
+/// The angle beyond which the lobe is below e^-45 of what it is at angle a1.
+double cutAngle(double a1, double s) {
+    const double sine = std::sin(0.5 * a1);
+    const double v = -std::expm1(std::log1p(-2.0 * sine * sine) - kCut / (s + 1.0));
+    return 2.0 * std::asin(std::sqrt(std::min(0.5 * v, 1.0)));
+}
+
+double ringArea(double a, double b) {
+    return std::sin(0.5 * (a + b)) * std::sin(0.5 * (b - a));
+}
+
+LODESTAR_VECTOR_CLONES void addScaled(double* out, const double* values, double factor,
+                                      std::size_t count) {
+    for (std::size_t j = 0; j < count; ++j) {
+        out[j] += factor * values[j];
+    }
+}
+
+void clipAndNormalise(std::span<double> weights) {
+    double sum = 0.0;
+    for (double& weight : weights) {
+        weight = std::max(weight, 0.0);
+        sum += weight;
+    }
+    for (double& weight : weights) {
+        weight /= sum;
+    }
+}
+
+} // namespace
+
+CapIntegral::CapIntegral(double thetaO, double thetaB, double s)
+    : thetaO_(thetaO), thetaB_(thetaB) {
+    LODESTAR_EXPECT(thetaO >= thetaB, "r lies outside the cap");
+    const double a1 = thetaO - thetaB;
+    const double sum = thetaO + thetaB;
+    const double a2 = std::min(sum, 2.0 * kPi - sum);
+    fullRings_ = sum > kPi && a2 < 0.5 * kPi ? std::cos(a2) : 0.0;
+    if (a1 >= 0.5 * kPi || a2 <= a1) {
+        return;
+    }
+    const double sharp = s >= kSharedNodes ? cutAngle(a1, s) : kPi;
+    const double end = std::min({a2, 0.5 * kPi, sharp});
+    // a = a1 + (a2 - a1) sin^2(pi x / 2) takes the square roots off both ends; where the lobe's own
+    // end at pi / 2 is the nearer one, x = end (1 - (1 - y)^3) smooths its power too (RSRM-3).
+    const bool cubic = s < kSharedNodes && a2 > 0.5 * kPi;
+    const double xEnd = end >= a2 ? 1.0 : 2.0 / kPi * std::asin(std::sqrt((end - a1) / (a2 - a1)));
+    count_ = kNodes;
+    for (std::size_t i = 0; i < kNodes; ++i) {
+        const double y = rule().nodes[i];
+        const double x = cubic ? xEnd * (1.0 - (1.0 - y) * (1.0 - y) * (1.0 - y)) : xEnd * y;
+        const double dx = cubic ? 3.0 * xEnd * (1.0 - y) * (1.0 - y) : xEnd;
+        const double sine = std::sin(0.5 * kPi * x);
+        const double cosine = std::cos(0.5 * kPi * x);
+        const double fromNear = (a2 - a1) * sine * sine; // a - a1, without cancellation
+        const double toFar = (a2 - a1) * cosine * cosine;
+        const double a = a1 + fromNear;
+        // One of sin((sum - a) / 2) and sin((sum + a) / 2) vanishes at a2.
+        const double less = sum <= kPi ? std::sin(0.5 * toFar) : std::sin(0.5 * (sum - a));
+        const double more = sum <= kPi ? std::sin(0.5 * (sum + a)) : std::sin(0.5 * toFar);
+        const double psi = 2.0 * std::atan2(std::sqrt(std::sin(0.5 * fromNear) * less),
+                                            std::sqrt(more * std::sin(0.5 * (a + a1))));
+        const double da = (a2 - a1) * kPi * sine * cosine * dx;
+        share_[i] = rule().weights[i] * psi / kPi * std::sin(a) * da;
+        excess_[i] = share_[i] * std::sin(a) * std::sin(thetaO) * excessOfShare(psi);
+        const double half = std::sin(0.5 * a);
+        logCosine_[i] = std::log1p(-2.0 * half * half);
+    }
+}
+
+double CapIntegral::mass(double s) const {
+    double sum = 0.0;
+    for (int i = 0; i < count_; ++i) {
+        sum += share_[i] * power(logCosine_[i], s);
+    }
+    return (s + 1.0) * sum + (fullRings_ > 0.0 ? std::pow(fullRings_, s + 1.0) : 0.0);
+}
+
+double CapIntegral::firstExcess(double s) const {
+    double sum = 0.0;
+    for (int i = 0; i < count_; ++i) {
+        sum += excess_[i] * power(logCosine_[i], s);
+    }
+    const double rings =
+        fullRings_ > 0.0
+            ? std::pow(fullRings_, s + 1.0) *
+                  (std::cos(thetaO_) * (s + 1.0) / (s + 2.0) * fullRings_ - std::cos(thetaB_))
+            : 0.0;
+    return (s + 1.0) * sum + rings;
+}
+
+CapIntegral smallSide(double thetaO, double thetaB, double s) {
+    return thetaO >= thetaB ? CapIntegral(thetaO, thetaB, s)
+                            : CapIntegral(kPi - thetaO, kPi - thetaB, s);
+}
+
+double capMass(double thetaO, double thetaB, double s) {
+    return thetaO >= thetaB ? CapIntegral(thetaO, thetaB, s).mass(s)
+                            : 1.0 - CapIntegral(kPi - thetaO, kPi - thetaB, s).mass(s);
+}
+
+double capFirstExcess(double thetaO, double thetaB, double s) {
+    if (thetaO >= thetaB) {
+        return CapIntegral(thetaO, thetaB, s).firstExcess(s);
+    }
+    return std::cos(thetaO) * (s + 1.0) / (s + 2.0) - std::cos(thetaB) +
+           CapIntegral(kPi - thetaO, kPi - thetaB, s).firstExcess(s);
+}
+
+std::vector<double> funkHeckeEigenvalues(double s, int degree) {
+    LODESTAR_EXPECT(degree >= 1, "there are eigenvalues of degrees 0 and 1 at least");
+    std::vector<double> lambda(static_cast<std::size_t>(degree) + 1);
+    lambda[0] = 1.0;
+    lambda[1] = (s + 1.0) / (s + 2.0);
+    for (std::size_t l = 0; l + 2 < lambda.size(); ++l) {
+        const auto order = static_cast<double>(l);
+        lambda[l + 2] = lambda[l] * (s - order) / (s + order + 3.0);
+    }
+    return lambda;
+}
+
+std::vector<double> weightsFromSmallSides(double thetaO, std::span<const double> edges,
+                                          std::span<const double> small) {
+    std::vector<double> weights(edges.size() - 1);
+    double others = 0.0;
+    std::size_t own = 0;
+    for (std::size_t j = 0; j + 1 < edges.size(); ++j) {
+        const bool above = edges[j + 1] <= thetaO;
+        const bool below = edges[j] > thetaO;
+        if (!above && !below) {
+            own = j;
+            continue;
+        }
+        weights[j] = std::max(above ? small[j + 1] - small[j] : small[j] - small[j + 1], 0.0);
+        others += weights[j];
+    }
+    if (thetaO >= edges.back()) {
+        own = weights.size() - 1; // r at the far pole lies on the last zone's far edge
+        others -= weights[own];
+    }
+    weights[own] = std::max(1.0 - others, 0.0);
+    return weights;
+}
+
+std::vector<double> ringWeights(double thetaO, std::span<const double> edges, double s) {
+    LODESTAR_EXPECT(edges.size() >= 2, "a map has a zone");
+    std::vector<double> small(edges.size());
+    for (std::size_t j = 0; j < edges.size(); ++j) {
+        small[j] = smallSide(thetaO, edges[j], s).mass(s);
+    }
+    return weightsFromSmallSides(thetaO, edges, small);
+}
+
+int legendreDegree(double s) {
+    return std::max(512, static_cast<int>(std::ceil(9.0 * std::sqrt(s + 1.0))));
+}
+
+std::vector<double> legendreWeights(double thetaO, std::span<const double> edges, double s) {
+    const LegendreZones zones(edges, legendreDegree(s));
+    std::vector<double> weights(edges.size() - 1);
+    zones.weights(LegendreZones::polynomials(thetaO, zones.degree()),
+                  funkHeckeEigenvalues(s, zones.degree()), weights);
+    return weights;
+}
+
+std::vector<double> nodeWeights(double thetaO, std::span<const double> nodes, double s) {
+    LODESTAR_EXPECT(nodes.size() >= 2, "radiance is linear between two nodes at least");
+    // Between nodes i and i + 1 the mean of F over z is (Q_{i+1} - Q_i) / (z_i - z_{i+1}); a hat is
+    // the difference of two such means (RSRM-4).
+    std::vector<double> weights(nodes.size());
+    double before = 0.0;
+    double excess = capFirstExcess(thetaO, nodes[0], s);
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+        const double next = capFirstExcess(thetaO, nodes[i + 1], s);
+        const double mean = (next - excess) / (2.0 * ringArea(nodes[i], nodes[i + 1]));
+        weights[i] = mean - before;
+        before = mean;
+        excess = next;
+    }
+    weights.back() = 1.0 - before;
+    return weights;
+}
+
+LegendreZones::LegendreZones(std::span<const double> edges, int degree)
+    : degree_(degree), zones_(edges.size() - 1), areas_(zones_),
+      steps_((static_cast<std::size_t>(degree) + 1) * zones_) {
+    LODESTAR_EXPECT(edges.size() >= 2 && degree >= 1, "a map has a zone and a degree");
+    for (std::size_t j = 0; j < zones_; ++j) {
+        areas_[j] = ringArea(edges[j], edges[j + 1]);
+    }
+    // (P_{l-1} - P_{l+1}) / 2 is the integral of (2 l + 1) / 2 P_l from z to 1; 0 at both poles.
+    for (std::size_t j = 1; j < zones_; ++j) {
+        const std::vector<double> p = polynomials(edges[j], degree + 1);
+        for (std::size_t l = 1; l <= static_cast<std::size_t>(degree); ++l) {
+            const double cap = 0.5 * (p[l - 1] - p[l + 1]);
+            steps_[l * zones_ + j - 1] += cap;
+            steps_[l * zones_ + j] -= cap;
+        }
+    }
+}
+
+std::vector<double> LegendreZones::polynomials(double thetaO, int degree) {
+    std::vector<double> p(static_cast<std::size_t>(degree) + 1);
+    const double z = std::cos(thetaO);
+    p[0] = 1.0;
+    p[1] = z;
+    for (std::size_t l = 1; l + 1 < p.size(); ++l) {
+        const auto order = static_cast<double>(l);
+        p[l + 1] = ((2.0 * order + 1.0) * z * p[l] - order * p[l - 1]) / (order + 1.0);
+    }
+    return p;
+}
+
+void LegendreZones::weights(std::span<const double> polynomials,
+                            std::span<const double> eigenvalues, std::span<double> weights) const {
+    LODESTAR_EXPECT(polynomials.size() == eigenvalues.size() && weights.size() == zones_,
+                    "one polynomial an eigenvalue, one weight a zone");
+    const std::size_t end = std::min(eigenvalues.size(), static_cast<std::size_t>(degree_) + 1);
+    std::copy(areas_.begin(), areas_.end(), weights.begin());
+    for (std::size_t l = 1; l < end; ++l) {
+        const double factor = eigenvalues[l] * polynomials[l];
+        if (std::abs(factor) > 1e-18) {
+            addScaled(weights.data(), steps_.data() + l * zones_, factor, zones_);
+        }
+    }
+    clipAndNormalise(weights);
+}
+
+} // namespace lodestar::lighting

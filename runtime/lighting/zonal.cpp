@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "lighting/zonal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "core/contract.h"
+#include "core/quadrature.h"
+
+namespace lodestar::lighting {
+
+namespace {
+
+constexpr int kNodes = 8;
+
+/// Half the height of the ring between two angles, (cos a - cos b) / 2, without cancellation.
+double ringArea(double a, double b) {
+    return std::sin(0.5 * (a + b)) * std::sin(0.5 * (b - a));
+}
+
+/// Mean radiance of the ring, smooth within.
+glm::dvec3 ringMean(const RadianceProfile& profile, const core::GaussRule& rule, double a,
+                    double b) {
+    glm::dvec3 sum(0.0);
+    double weights = 0.0;
+    for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+        const double theta = a + (b - a) * rule.nodes[i];
+        const double weight = rule.weights[i] * std::sin(theta);
+        sum += weight * profile.radiance(theta);
+        weights += weight;
+    }
+    return sum / weights;
+}
+
+} // namespace
+
+Zones zonesFor(LightKind kind) {
+    return {kind == LightKind::Sky ? ZoneSpacing::EqualHeight : ZoneSpacing::Quartic, 256};
+}
+
+std::vector<double> zoneEdges(const Zones& zones) {
+    LODESTAR_EXPECT(zones.count >= 1 && zones.count <= 4096, "a map has 1 to 4096 zones");
+    std::vector<double> edges;
+    for (int j = 0; j <= zones.count; ++j) {
+        const double u = static_cast<double>(j) / zones.count;
+        // sin(theta / 2) = sqrt((1 - z) / 2); from the far end where that is near 1.
+        const double h = zones.spacing == ZoneSpacing::EqualHeight ? std::sqrt(u) : u * u;
+        const double cosine = std::sqrt(
+            zones.spacing == ZoneSpacing::EqualHeight ? 1.0 - u : (1.0 - u * u) * (1.0 + u * u));
+        edges.push_back(2.0 * std::atan2(h, cosine));
+    }
+    edges.back() = std::numbers::pi;
+    return edges;
+}
+
+ZonalRadiance zonalRadiance(const RadianceProfile& profile, const Zones& zones) {
+    const std::vector<double> edges = zoneEdges(zones);
+    const core::GaussRule rule = core::gaussLegendre(kNodes);
+    const std::vector<double>& breaks = profile.breaks();
+    ZonalRadiance result{zones, {}};
+    for (std::size_t j = 0; j + 1 < edges.size(); ++j) {
+        glm::dvec3 sum(0.0);
+        double areas = 0.0;
+        double begin = edges[j];
+        auto next = std::upper_bound(breaks.begin(), breaks.end(), begin);
+        while (begin < edges[j + 1]) {
+            while (next != breaks.end() && *next <= begin) {
+                ++next;
+            }
+            const double end = next == breaks.end() ? edges[j + 1] : std::min(*next, edges[j + 1]);
+            const double area = ringArea(begin, end);
+            sum += area * ringMean(profile, rule, begin, end);
+            areas += area;
+            begin = end;
+        }
+        result.means.push_back(sum / areas);
+    }
+    return result;
+}
+
+glm::dvec3 sphereMean(const ZonalRadiance& radiance) {
+    const std::vector<double> edges = zoneEdges(radiance.zones);
+    glm::dvec3 sum(0.0);
+    for (std::size_t j = 0; j + 1 < edges.size(); ++j) {
+        sum += ringArea(edges[j], edges[j + 1]) * radiance.means[j];
+    }
+    return sum;
+}
+
+} // namespace lodestar::lighting

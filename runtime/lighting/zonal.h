@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+//
+// Zonal radiance: a gradient as means over zones, rings of directions about the axis. Means keep
+// energy whatever the gradient holds between the zones' edges.
+#pragma once
+
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "lighting/gradient.h"
+
+namespace lodestar::lighting {
+
+/// Where the zones' edges lie.
+enum class ZoneSpacing {
+    EqualHeight, ///< equal steps of z = cos(theta), equal areas (Stone): skies
+    Quartic,     ///< equal steps of ((1 - z) / 2)^(1/4), fine about the axis: suns
+};
+
+struct Zones {
+    ZoneSpacing spacing = ZoneSpacing::EqualHeight;
+    int count = 256; ///< [1, 4096]
+    bool operator==(const Zones&) const = default;
+};
+
+/// The zones of a light's kind.
+[[nodiscard]] Zones zonesFor(LightKind kind);
+
+/// The count + 1 edges as angles from the axis, radians, from 0 to pi. @pre count as above
+[[nodiscard]] std::vector<double> zoneEdges(const Zones& zones);
+
+/// Mean radiance of each zone, from the axis outwards.
+struct ZonalRadiance {
+    Zones zones;
+    std::vector<glm::dvec3> means;
+};
+
+/// Zone means by Gauss quadrature in the angle, split at the gradient's stops; each piece is
+/// weighted by its exact area, so that a constant is exact and the zones' energy is the gradient's
+/// to 1e-9.
+[[nodiscard]] ZonalRadiance zonalRadiance(const RadianceProfile& profile, const Zones& zones);
+
+/// Mean radiance over the sphere: the zones' energy over 4 pi.
+[[nodiscard]] glm::dvec3 sphereMean(const ZonalRadiance& radiance);
+
+} // namespace lodestar::lighting
