@@ -2,8 +2,10 @@
 //
 // Extensions that are read: texture transforms, unlit, index of refraction, specular, image-based
 // lights; what they say and what of them is refused.
+#include <algorithm>
 #include <cmath>
 
+#include "io/environment_file.h"
 #include "unit/io/io_support.h"
 
 namespace lodestar {
@@ -173,6 +175,43 @@ TEST(GltfExtensions, ImageBasedLight) {
         ASSERT_FALSE(refused.ok()) << patch;
         EXPECT_EQ(refused.error().where, where);
     }
+}
+
+TEST(GltfExtensions, ImageBasedLightAsACube) {
+    // Six plain faces, +X red 1, the others grey k / 8; RGBD alpha 1/2 doubles, intensity 3
+    // triples.
+    io::GltfFile file;
+    for (int face = 0; face < 6; ++face) {
+        core::Image image(2, 2, 4);
+        for (std::size_t i = 0; i < image.pixels().size(); i += 4) {
+            const float grey = static_cast<float>(face) / 8.0f;
+            const float texel[4] = {face == 0 ? 1.0f : grey, grey, grey, 0.5f};
+            std::copy_n(texel, 4, &image.pixels()[i]);
+        }
+        file.images.push_back(image);
+    }
+    io::GltfEnvironment light;
+    light.faces = {0, 1, 2, 3, 4, 5};
+    light.intensity = 3.0f;
+    file.environments.push_back(light);
+    const auto red = [&](const glm::vec3& direction) {
+        const core::Result<io::LoadedEnvironment> loaded = io::environmentOf(file, 0, 8);
+        EXPECT_TRUE(loaded.ok());
+        return loaded->base.sampleLevel(direction, 0);
+    };
+    // sRGB decoding is of single precision.
+    EXPECT_NEAR(red({1, 0, 0}).r, 6.0f, 1e-5f);
+    EXPECT_NEAR(red({1, 0, 0}).g, 0.0f, 1e-5f);
+    EXPECT_LT(red({0, 0, -1}).r, 3.0f);
+    // A quarter turn about +Y takes +X to -Z.
+    file.environments[0].rotation = glm::angleAxis(1.57079633f, glm::vec3(0.0f, 1.0f, 0.0f));
+    EXPECT_NEAR(red({0, 0, -1}).r, 6.0f, 1e-4f);
+    EXPECT_NEAR(red({0, 0, -1}).g, 0.0f, 1e-4f);
+    EXPECT_LT(red({1, 0, 0}).r, 3.0f);
+    file.images[3] = core::Image(2, 1, 4);
+    const core::Result<io::LoadedEnvironment> odd = io::environmentOf(file, 0, 8);
+    ASSERT_FALSE(odd.ok());
+    EXPECT_EQ(odd.error().where, "/extensions/EXT_lights_image_based/lights/0/specularImages/0");
 }
 
 } // namespace
