@@ -96,6 +96,10 @@ core::Result<Json> checkScene(const std::string& file) {
     json["file"] = file;
     json["kind"] = "scene";
     json["scenes"] = scene->scenes.size();
+    json["sceneNames"] = Json::array();
+    for (const io::GltfScene& each : scene->scenes) {
+        json["sceneNames"].push_back(each.name);
+    }
     json["nodes"] = scene->nodes.size();
     json["meshes"] = scene->meshes.size();
     json["primitives"] = counts.primitives;

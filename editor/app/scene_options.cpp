@@ -94,6 +94,49 @@ core::Result<lighting::Estimator> parseShaderEstimator(const std::string& name, 
     return estimator;
 }
 
+/// The scene of a file that a name or a number means; -1 for the file's own choice.
+core::Result<int> chooseScene(const io::GltfFile& file, const std::string& wanted) {
+    if (wanted.empty()) {
+        return -1;
+    }
+    std::string known;
+    for (std::size_t i = 0; i < file.scenes.size(); ++i) {
+        if (file.scenes[i].name == wanted || std::to_string(i) == wanted) {
+            return static_cast<int>(i);
+        }
+        known += (known.empty() ? "" : ", ") +
+                 (file.scenes[i].name.empty() ? std::to_string(i) : file.scenes[i].name);
+    }
+    return usage("no scene '" + wanted + "'; the file has " +
+                     (known.empty() ? "none" : std::to_string(file.scenes.size()) + ": " + known),
+                 "--scene");
+}
+
+/// The distant light: what the command line names, else the scene's own, else a clear sky.
+core::Result<void> loadEnvironment(const SceneOptions& options, const io::GltfFile& file,
+                                   int sceneIndex, LoadedScene& loaded) {
+    const int own =
+        sceneIndex < 0 ? io::kNone : file.scenes[static_cast<std::size_t>(sceneIndex)].environment;
+    if (options.environment.empty() && own == io::kNone) {
+        loaded.environmentName = kClearSky;
+        loaded.environment.base =
+            lighting::cubeFromAnalytic(lighting::ClearSkyEnvironment{}, options.cubeWidth);
+        return {};
+    }
+    loaded.environmentName = options.environment.empty() ? options.scene + " (image-based light " +
+                                                               std::to_string(own) + ")"
+                                                         : options.environment;
+    auto environment = options.environment.empty()
+                           ? io::environmentOf(file, own, options.cubeWidth)
+                           : io::loadEnvironment(options.environment, options.cubeWidth);
+    if (!environment) {
+        return core::inFile(environment.error(),
+                            options.environment.empty() ? options.scene : options.environment);
+    }
+    loaded.environment = std::move(*environment);
+    return {};
+}
+
 core::Result<scene::CameraRequest> cameraRequest(const SceneOptions& options) {
     scene::CameraRequest request;
     request.name = options.camera;
@@ -157,12 +200,15 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
         "--environment", options.environment,
         "Distant light: a panorama, a cube cross or strip, six files STEM_px.EXT .., or\n"
         "constant:R,G,B | gradient:DOWN,UP | disc:X,Y,Z,DEGREES,INSIDE[,OUTSIDE] |\n"
-        "faces:C;C;C;C;C;C (C a number or R/G/B). Default: a clear sky at 15:00");
+        "faces:C;C;C;C;C;C (C a number or R/G/B). Default: the scene's own\n"
+        "EXT_lights_image_based, else a clear sky at 15:00");
     command
         .add_option("--environment-width", options.cubeWidth,
                     "Face width of the environment's cube map, in texels")
         ->check(CLI::Range(1, 4096))
         ->capture_default_str();
+    command.add_option("--scene", options.sceneName,
+                       "A scene of the file, by name or number (default: the file's own choice)");
     command.add_option("--camera", options.camera, "A camera of the scene, by name or number");
     command.add_option("--eye", options.eye, "Viewpoint X,Y,Z in metres");
     command.add_option("--target", options.target, "Point looked at, X,Y,Z in metres");
@@ -193,22 +239,19 @@ core::Result<LoadedScene> load(const SceneOptions& options) {
     if (!request) {
         return request.error();
     }
-    loaded.environmentName = options.environment.empty() ? kClearSky : options.environment;
-    if (options.environment.empty()) {
-        loaded.environment.base =
-            lighting::cubeFromAnalytic(lighting::ClearSkyEnvironment{}, options.cubeWidth);
-    } else {
-        auto environment = io::loadEnvironment(options.environment, options.cubeWidth);
-        if (!environment) {
-            return core::inFile(environment.error(), options.environment);
-        }
-        loaded.environment = std::move(*environment);
-    }
     auto file = io::loadGltf(options.scene, {options.assetRoot, true});
     if (!file) {
         return core::inFile(file.error(), options.scene);
     }
-    loaded.scene = scene::buildScene(std::move(*file));
+    const auto sceneIndex = chooseScene(*file, options.sceneName);
+    if (!sceneIndex) {
+        return sceneIndex.error();
+    }
+    const int shown = *sceneIndex >= 0 ? *sceneIndex : file->defaultScene;
+    if (auto lit = loadEnvironment(options, *file, shown, loaded); !lit) {
+        return lit.error();
+    }
+    loaded.scene = scene::buildScene(std::move(*file), *sceneIndex);
     const float aspect =
         static_cast<float>(loaded.settings.width) / static_cast<float>(loaded.settings.height);
     auto view = scene::chooseView(loaded.scene, *request, aspect);

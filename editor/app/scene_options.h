@@ -17,6 +17,7 @@ namespace lodestar::app {
 struct SceneOptions {
     std::string scene;
     std::string assetRoot;
+    std::string sceneName; ///< a scene of the file, by name or number
     std::string environment;
     std::string camera;
     std::string eye, target;

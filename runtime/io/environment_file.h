@@ -8,6 +8,7 @@
 
 #include "core/result.h"
 #include "core/tally.h"
+#include "io/gltf.h"
 #include "lighting/cubemap.h"
 
 namespace lodestar::io {
@@ -31,5 +32,12 @@ inline constexpr int kDefaultCubeWidth = 256;
 /// @errors Usage for a bad analytic text, InputRefused for a bad file
 [[nodiscard]] core::Result<LoadedEnvironment> loadEnvironment(const std::string& environment,
                                                               int width = kDefaultCubeWidth);
+
+/// An EXT_lights_image_based of a scene file as a cube map: its first level, sRGB colours over
+/// alpha (RGBD) times the intensity, turned by its rotation. @pre environment is an index of the
+/// file's, whose images are decoded  @errors InputRefused if the faces are not square and of one
+/// size
+[[nodiscard]] core::Result<LoadedEnvironment> environmentOf(const GltfFile& file, int environment,
+                                                            int width = kDefaultCubeWidth);
 
 } // namespace lodestar::io

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/gltf.h"
 
+#include <algorithm>
+
 #include "io/gltf_internal.h"
 
 namespace lodestar::io {
@@ -40,8 +42,8 @@ core::Result<GltfFile> convert(const Json& document, const tinygltf::Model& mode
     file.skinCount = static_cast<int>(memberSize(document, "skins"));
     convertTextures(context);
     convertLights(context);
-    for (const auto step :
-         {convertMaterials, convertCameras, convertNodes, convertScenes, convertMeshes}) {
+    for (const auto step : {convertMaterials, convertCameras, convertNodes, convertScenes,
+                            convertEnvironments, convertMeshes}) {
         core::Result<void> done = step(context);
         if (!done) {
             return done.error();
@@ -90,6 +92,13 @@ core::Result<GltfFile> load(const std::filesystem::path& path, const GltfOptions
 
 } // namespace
 } // namespace detail
+
+bool GltfFile::extensionListed(const std::string& name) const {
+    const auto in = [&](const std::vector<std::string>& names) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    return in(extensionsUsed) || in(extensionsRequired);
+}
 
 core::Result<GltfFile> loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
     core::Result<GltfFile> file = detail::load(path, options);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x2.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -42,7 +43,9 @@ struct GltfTexture {
 
 struct GltfTextureRef {
     int texture = kNone;
-    int uvSet = 0;
+    int uvSet = 0; ///< an index into GltfPrimitive::uvs
+    /// KHR_texture_transform: texture coordinates from the set's, M (u, v, 1); absent if none.
+    std::optional<glm::mat3x2> uvTransform = {};
 };
 
 enum class AlphaMode { Opaque, Mask, Blend };
@@ -80,6 +83,14 @@ struct GltfMaterial {
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alphaCutoff = 0.5f;
     bool doubleSided = false;
+    bool unlit = false;                  ///< KHR_materials_unlit: the base colour is the radiance
+    float ior = 1.5f;                    ///< KHR_materials_ior, [1, inf) or 0 (F0 = 1)
+    float specular = 1.0f;               ///< KHR_materials_specular: scales a dielectric's F0
+    glm::vec3 specularColor{1.0f};       ///< the same by colour, linear, >= 0
+    GltfTextureRef specularTexture;      ///< linear, alpha
+    GltfTextureRef specularColorTexture; ///< sRGB
+    /// Which TEXCOORD_n of the file is GltfPrimitive::uvs[0] and [1] under this material.
+    std::array<int, 2> uvSources{0, 1};
     std::optional<GltfBlinnPhong> blinnPhong;
 };
 
@@ -143,9 +154,19 @@ struct GltfNode {
     int skin = kNone; ///< recorded; joints are not applied yet
 };
 
+/// EXT_lights_image_based. Its irradiance coefficients are not kept: irradiance is made from the
+/// images.
+struct GltfEnvironment {
+    std::string name;
+    glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f}; ///< worldFromEnvironment, unit
+    float intensity = 1.0f;                     ///< [0, 1e9]
+    std::array<int, 6> faces{}; ///< images in GL order, first row at t = 0: colours / alpha (RGBD)
+};
+
 struct GltfScene {
     std::string name;
     std::vector<int> roots;
+    int environment = kNone;
 };
 
 /// A whole file. All indices are valid or kNone; the nodes of a scene form a forest.
@@ -160,11 +181,15 @@ struct GltfFile {
         images; ///< 4 channels, as stored; 1x1 white where decoding failed (counted)
     std::vector<GltfCamera> cameras;
     std::vector<GltfLight> lights;
+    std::vector<GltfEnvironment> environments;
     std::vector<std::string> extensionsUsed;
     std::vector<std::string> extensionsRequired;
     int animationCount = 0;
     int skinCount = 0;
     core::Tally warnings; ///< what was repaired or ignored
+
+    /// Whether the file lists an extension as used or required.
+    [[nodiscard]] bool extensionListed(const std::string& name) const;
 };
 
 /// Whether an extension's content is read.

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -136,6 +137,43 @@ void repairNormals(GltfPrimitive& primitive, core::Tally& warnings);
 void repairTangents(GltfPrimitive& primitive, core::Tally& warnings);
 
 [[nodiscard]] core::Result<void> convertMaterials(GltfContext& context);
+/// Reads members that the schema's tables leave out, of an extension's object. The first fault is
+/// kept and ends up in status(); what follows it reads as absent.
+class ExtensionReader {
+public:
+    /// @param object the extension's value, or null: everything is absent then
+    ExtensionReader(const Json* object, std::string at);
+
+    [[nodiscard]] bool present() const { return object_ != nullptr; }
+    [[nodiscard]] double number(const char* key, double otherwise);
+    /// An array of as many finite numbers as there are values; left alone where it is absent.
+    void numbers(const char* key, std::span<double> values);
+    /// An index below size. @param what is counted, for people
+    [[nodiscard]] std::optional<int> index(const char* key, std::size_t size, const char* what);
+    void refuse(const std::string& what, const std::string& key);
+    [[nodiscard]] const core::Result<void>& status() const { return status_; }
+
+private:
+    [[nodiscard]] const Json* find(const char* key) const;
+
+    const Json* object_;
+    std::string at_;
+    core::Result<void> status_;
+};
+
+/// An extension's value in an object's "extensions", or null.
+[[nodiscard]] const Json* extensionOf(const Json& object, const char* name);
+
+/// KHR_texture_transform of a textureInfo. @param set replaced by the extension's texCoord
+[[nodiscard]] core::Result<std::optional<glm::mat3x2>>
+readTextureTransform(const Json& info, const std::string& at, int& set);
+/// KHR_materials_unlit, _ior and the factors of _specular.
+[[nodiscard]] core::Result<void> readMaterialExtensions(const Json& json, const std::string& at,
+                                                        GltfMaterial& material,
+                                                        core::Tally& warnings);
+/// EXT_lights_image_based: the document's environments, and which one each scene has.
+[[nodiscard]] core::Result<void> convertEnvironments(GltfContext& context);
+
 void convertTextures(GltfContext& context);
 [[nodiscard]] core::Result<void> convertCameras(GltfContext& context);
 void convertLights(GltfContext& context);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Materials, textures and samplers. Source: glTF 2.0 specification, sections 3.8, 3.9, 5.26, and
-// KHR_materials_emissive_strength.
+// KHR_materials_emissive_strength; further extensions in gltf_extensions.cpp.
 #include <algorithm>
 #include <cmath>
 
@@ -42,18 +42,17 @@ public:
         material.normalScale = static_cast<float>(source.normalTexture.scale);
         material.occlusionStrength = within(source.occlusionTexture.strength, 0.0, 1.0,
                                             "occlusion strength outside [0, 1], clamped", warnings);
-        material.baseColorTexture =
-            reference(pbr.baseColorTexture.index, pbr.baseColorTexture.texCoord);
-        material.metallicRoughnessTexture =
-            reference(pbr.metallicRoughnessTexture.index, pbr.metallicRoughnessTexture.texCoord);
-        material.normalTexture =
-            reference(source.normalTexture.index, source.normalTexture.texCoord);
-        material.occlusionTexture =
-            reference(source.occlusionTexture.index, source.occlusionTexture.texCoord);
-        material.emissiveTexture =
-            reference(source.emissiveTexture.index, source.emissiveTexture.texCoord);
         readAlpha(source, material);
         material.doubleSided = source.doubleSided;
+        const core::Result<void> extended =
+            readMaterialExtensions(json, at_, material, context_.file.warnings);
+        if (!extended) {
+            return extended.error();
+        }
+        const core::Result<void> textures = readTextures(json, material);
+        if (!textures) {
+            return textures.error();
+        }
         const Json* extras = member(json, "extras");
         const Json* own = extras == nullptr ? nullptr : member(*extras, "lodestar");
         if (own != nullptr) {
@@ -63,6 +62,10 @@ public:
                 return blinnPhong.error();
             }
             material.blinnPhong = *blinnPhong;
+        }
+        const core::Result<void> chosen = chooseUvSources(material);
+        if (!chosen) {
+            return chosen.error();
         }
         return material;
     }
@@ -97,20 +100,109 @@ private:
                                       "alphaCutoff negative, set to 0", context_.file.warnings);
     }
 
-    GltfTextureRef reference(int texture, int uvSet) {
-        core::Tally& warnings = context_.file.warnings;
-        if (texture == kNone) {
+    core::Result<void> readTextures(const Json& json, GltfMaterial& material) {
+        const Json* pbr = member(json, "pbrMetallicRoughness");
+        const Json* specular = extensionOf(json, "KHR_materials_specular");
+        const std::string pbrAt = at_ + "/pbrMetallicRoughness/";
+        const std::string specularAt = at_ + "/extensions/KHR_materials_specular/";
+        const auto in = [](const Json* object, const char* key) {
+            return object == nullptr ? nullptr : member(*object, key);
+        };
+        struct Slot {
+            const Json* info;
+            std::string at;
+            GltfTextureRef& reference;
+        };
+        const Slot slots[] = {
+            {in(pbr, "baseColorTexture"), pbrAt + "baseColorTexture", material.baseColorTexture},
+            {in(pbr, "metallicRoughnessTexture"), pbrAt + "metallicRoughnessTexture",
+             material.metallicRoughnessTexture},
+            {in(&json, "normalTexture"), at_ + "/normalTexture", material.normalTexture},
+            {in(&json, "occlusionTexture"), at_ + "/occlusionTexture", material.occlusionTexture},
+            {in(&json, "emissiveTexture"), at_ + "/emissiveTexture", material.emissiveTexture},
+            {in(specular, "specularTexture"), specularAt + "specularTexture",
+             material.specularTexture},
+            {in(specular, "specularColorTexture"), specularAt + "specularColorTexture",
+             material.specularColorTexture}};
+        for (const Slot& slot : slots) {
+            if (slot.info == nullptr) {
+                continue;
+            }
+            core::Result<GltfTextureRef> read = reference(*slot.info, slot.at);
+            if (!read) {
+                return read.error();
+            }
+            slot.reference = *read;
+        }
+        return {};
+    }
+
+    /// A textureInfo: its index, set and transform. The set is the file's until chooseUvSources.
+    core::Result<GltfTextureRef> reference(const Json& info, const std::string& at) {
+        const Json* index = member(info, "index");
+        const Json* set = member(info, "texCoord");
+        if (index == nullptr || !index->is_number_integer()) {
+            return core::refused("must be an object with the index of a texture", at);
+        }
+        const auto isSet = [](const Json& j) {
+            return j.is_number_unsigned() && j.get<std::uint64_t>() < 0x7fffffff;
+        };
+        if (set != nullptr && !isSet(*set)) {
+            return core::refused("must be the number of a set of texture coordinates",
+                                 at + "/texCoord");
+        }
+        GltfTextureRef result;
+        result.uvSet = set == nullptr ? 0 : set->get<int>();
+        core::Result<std::optional<glm::mat3x2>> transform =
+            readTextureTransform(info, at, result.uvSet);
+        if (!transform) {
+            return transform.error();
+        }
+        result.uvTransform = *transform;
+        const bool absent = index->is_number_integer() && !index->is_number_unsigned() &&
+                            index->get<std::int64_t>() == kNone;
+        if (!index->is_number_unsigned() ||
+            index->get<std::uint64_t>() >= context_.model.textures.size()) {
+            context_.file.warnings.add("texture that does not exist, left out", absent ? 0 : 1);
+            return GltfTextureRef();
+        }
+        result.texture = index->get<int>();
+        return result;
+    }
+
+    /// A vertex carries two sets. Where a material names a third or a later one, the two that it
+    /// uses are loaded instead; more than two are refused.
+    core::Result<void> chooseUvSources(GltfMaterial& material) const {
+        std::vector<GltfTextureRef*> references = {
+            &material.baseColorTexture,    &material.metallicRoughnessTexture,
+            &material.normalTexture,       &material.occlusionTexture,
+            &material.emissiveTexture,     &material.specularTexture,
+            &material.specularColorTexture};
+        if (material.blinnPhong) {
+            references.push_back(&material.blinnPhong->exponentTexture);
+        }
+        std::vector<int> sets;
+        for (const GltfTextureRef* reference : references) {
+            if (reference->texture != kNone &&
+                std::find(sets.begin(), sets.end(), reference->uvSet) == sets.end()) {
+                sets.push_back(reference->uvSet);
+            }
+        }
+        std::sort(sets.begin(), sets.end());
+        if (sets.empty() || sets.back() <= 1) {
             return {};
         }
-        if (texture < 0 || static_cast<std::size_t>(texture) >= context_.model.textures.size()) {
-            warnings.add("texture that does not exist, left out");
-            return {};
+        if (sets.size() > 2) {
+            return core::refused("its textures use " + std::to_string(sets.size()) +
+                                     " sets of texture coordinates; two are supported",
+                                 at_);
         }
-        if (uvSet < 0 || uvSet > 1) {
-            warnings.add("texCoord set beyond 1, set 0 is used");
-            uvSet = 0;
+        sets.resize(2, 0);
+        material.uvSources = {sets[0], sets[1]};
+        for (GltfTextureRef* reference : references) {
+            reference->uvSet = reference->uvSet == sets[0] ? 0 : 1;
         }
-        return {texture, uvSet};
+        return {};
     }
 
     [[nodiscard]] core::Error wrong(const std::string& what, const std::string& key) const {
@@ -155,20 +247,11 @@ private:
 
     core::Result<void> readExponentTexture(const Json& json, GltfBlinnPhong& result) {
         if (const Json* value = member(json, "exponentTexture")) {
-            const Json* index = member(*value, "index");
-            const Json* set = member(*value, "texCoord");
-            const auto isIndex = [](const Json* j) {
-                return j->is_number_unsigned() && j->get<std::uint64_t>() < 0x7fffffff;
-            };
-            if (index == nullptr || !isIndex(index)) {
-                return wrong("must be an object with the index of a texture", "exponentTexture");
+            core::Result<GltfTextureRef> read = reference(*value, at_ + "/exponentTexture");
+            if (!read) {
+                return read.error();
             }
-            if (set != nullptr && !isIndex(set)) {
-                return wrong("must be the number of a set of texture coordinates",
-                             "exponentTexture/texCoord");
-            }
-            result.exponentTexture =
-                reference(index->get<int>(), set == nullptr ? 0 : set->get<int>());
+            result.exponentTexture = *read;
         }
         if (const Json* value = member(json, "exponentEncoding")) {
             const std::string name = value->is_string() ? value->get<std::string>() : std::string();

@@ -86,8 +86,37 @@ private:
                                      " elements, POSITION has " + std::to_string(vertexCount_),
                                  at);
         }
+        if (core::Result<void> allowed = checkComponents(name, accessor, at); !allowed) {
+            return allowed.error();
+        }
         vertexCount_ = accessor.count;
         return readFloats(context_, found->second, forceNormalized);
+    }
+
+    /// What the core specification lets an attribute's components be, and KHR_mesh_quantization.
+    core::Result<void> checkComponents(const std::string& name, const tinygltf::Accessor& accessor,
+                                       const std::string& at) const {
+        const int type = accessor.componentType;
+        const bool isFloat = type == TINYGLTF_COMPONENT_TYPE_FLOAT;
+        const bool isUnsigned = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                                type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+        const bool isSigned =
+            type == TINYGLTF_COMPONENT_TYPE_BYTE || type == TINYGLTF_COMPONENT_TYPE_SHORT;
+        const bool direction = name == "NORMAL" || name == "TANGENT";
+        const bool plain =
+            isFloat || (isUnsigned && (name == "COLOR_0" ||
+                                       (name.starts_with("TEXCOORD_") && accessor.normalized)));
+        const bool quantized = direction ? isSigned && accessor.normalized
+                                         : (isSigned || isUnsigned) && name != "COLOR_0";
+        if (plain || (quantized && context_.file.extensionListed("KHR_mesh_quantization"))) {
+            return {};
+        }
+        const std::string form = std::string(accessor.normalized ? "normalised " : "") +
+                                 "components of type " + std::to_string(type);
+        return core::refused(quantized ? name + " in " + form +
+                                             " needs the extension KHR_mesh_quantization"
+                                       : name + " cannot have " + form,
+                             at);
     }
 
     core::Result<void> readPositions(GltfPrimitive& primitive) {
@@ -136,8 +165,14 @@ private:
 
     core::Result<void> readUvs(GltfPrimitive& primitive) {
         for (int set = 0; set < 2; ++set) {
-            core::Result<std::vector<float>> values = attribute(
-                set == 0 ? "TEXCOORD_0" : "TEXCOORD_1", TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC2);
+            const int from =
+                source_.material == kNone
+                    ? set
+                    : context_.file.materials[static_cast<std::size_t>(source_.material)]
+                          .uvSources[static_cast<std::size_t>(set)];
+            core::Result<std::vector<float>> values =
+                attribute(("TEXCOORD_" + std::to_string(from)).c_str(), TINYGLTF_TYPE_VEC2,
+                          TINYGLTF_TYPE_VEC2);
             if (!values) {
                 return values.error();
             }

@@ -13,8 +13,10 @@
 namespace lodestar::io {
 namespace {
 
-constexpr std::array<std::string_view, 3> kSupportedExtensions{
-    "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_mesh_quantization"};
+constexpr std::array<std::string_view, 8> kSupportedExtensions{
+    "EXT_lights_image_based", "KHR_lights_punctual",    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",      "KHR_materials_specular", "KHR_materials_unlit",
+    "KHR_mesh_quantization",  "KHR_texture_transform"};
 
 } // namespace
 

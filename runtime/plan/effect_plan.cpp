@@ -11,7 +11,7 @@ namespace {
 
 using lighting::PreparedParts;
 
-constexpr std::array<const char*, 14> kFeatureNames = {"normals",
+constexpr std::array<const char*, 18> kFeatureNames = {"normals",
                                                        "tangents",
                                                        "vertex-colors",
                                                        "base-color-texture",
@@ -24,7 +24,11 @@ constexpr std::array<const char*, 14> kFeatureNames = {"normals",
                                                        "alpha-mask",
                                                        "alpha-blend",
                                                        "punctual-lights",
-                                                       "environment"};
+                                                       "environment",
+                                                       "texture-transform",
+                                                       "unlit",
+                                                       "specular-texture",
+                                                       "specular-color-texture"};
 
 /// Texels of a whole chain of six faces.
 std::uint64_t chainTexels(int width) {
@@ -40,6 +44,7 @@ constexpr std::uint64_t kUploadBytesPerTexel = 16;
 
 struct Receivers {
     bool any = false;
+    bool lit = false;
     bool diffuse = false;
     bool glossy = false;
 };
@@ -49,8 +54,9 @@ Receivers visibleReceivers(const PlanInput& input) {
     for (const DrawView& draw : input.draws) {
         if (draw.visible) {
             receivers.any = true;
-            receivers.diffuse = receivers.diffuse || draw.diffuse;
-            receivers.glossy = receivers.glossy || draw.glossy;
+            receivers.lit = receivers.lit || draw.lit;
+            receivers.diffuse = receivers.diffuse || (draw.lit && draw.diffuse);
+            receivers.glossy = receivers.glossy || (draw.lit && draw.glossy);
         }
     }
     return receivers;
@@ -110,10 +116,10 @@ void planEnvironment(const PlanInput& input, const Receivers& receivers, EffectP
             part.askedBecause = "the backdrop shows it";
         }
         const bool estimated = forSpecular.*part.member || forDiffuse.*part.member;
-        const std::string unwanted =
-            !estimated
-                ? "no chosen estimator reads it"
-                : (receivers.any ? "no visible surface reflects that way" : "nothing is visible");
+        const std::string unwanted = !estimated       ? "no chosen estimator reads it"
+                                     : !receivers.any ? "nothing is visible"
+                                     : !receivers.lit ? "all that is visible is unlit"
+                                                      : "no visible surface reflects that way";
         result.effects.push_back(
             decidePart(input, part, glossy || lambert || backdropOnly, unwanted, result.prepare));
     }
@@ -142,8 +148,9 @@ void planDraws(const PlanInput& input, EffectPlan& result) {
     });
     result.drawOrder.insert(result.drawOrder.end(), blended.begin(), blended.end());
     for (std::size_t index : result.drawOrder) {
-        Features features = input.draws[index].features | bit(Feature::Environment);
-        if (input.lightCount > 0) {
+        const bool lit = input.draws[index].lit;
+        Features features = input.draws[index].features | (lit ? bit(Feature::Environment) : 0u);
+        if (lit && input.lightCount > 0) {
             features |= bit(Feature::PunctualLights);
         }
         result.drawFeatures.push_back(features);
@@ -176,9 +183,10 @@ EffectPlan plan(const PlanInput& input) {
     result.effects.push_back(
         {"punctual-lights",
          std::to_string(input.lightCount) + " lights",
-         input.lightCount > 0 && receivers.any ? Decision::Run : Decision::Skip,
+         input.lightCount > 0 && receivers.lit ? Decision::Run : Decision::Skip,
          input.lightCount == 0 ? "the scene has none"
-         : receivers.any       ? "visible surfaces receive them"
+         : receivers.lit       ? "visible surfaces receive them"
+         : receivers.any       ? "all that is visible is unlit"
                                : "nothing is visible",
          {}});
     result.backdrop = input.backdrop;

@@ -29,6 +29,10 @@ enum class Feature : std::uint32_t {
     AlphaBlend = 1u << 11,
     PunctualLights = 1u << 12,
     Environment = 1u << 13,
+    TextureTransform = 1u << 14,     ///< some texture's coordinates are transformed
+    Unlit = 1u << 15,                ///< the base colour is the radiance; no light is asked for
+    SpecularTexture = 1u << 16,      ///< scales a dielectric's F0
+    SpecularColorTexture = 1u << 17, ///< the same by colour
 };
 
 using Features = std::uint32_t;
@@ -49,6 +53,7 @@ struct DrawView {
     bool visible = true; ///< inside the view
     bool diffuse = true; ///< reflects diffusely anywhere
     bool glossy = true;  ///< reflects glossily anywhere
+    bool lit = true;     ///< takes light at all; false for unlit materials
     bool blended = false;
     float distance = 0.0f; ///< metres along the view, for the order of blended draws
     int indexCount = 0;

@@ -29,7 +29,7 @@ void setTerms(plan::DrawView& draw, const io::GltfMaterial& material,
         const bool textured = material.metallicRoughnessTexture.texture != io::kNone;
         draw.diffuse =
             (material.metallic < 1.0f || textured) && !isBlack(glm::vec3(material.baseColor));
-        draw.glossy = true; // F0 is at least 0.04
+        draw.glossy = true; // Fresnel's rise at grazing angles, whatever F0 is
     }
 }
 
@@ -51,6 +51,7 @@ plan::DrawView drawView(const Scene& scene, const DrawItem& item, const View& vi
         draw.distance = -glm::vec3(view.cameraFromWorld * glm::vec4(bounds.center(), 1.0f)).z;
     }
     setTerms(draw, materialOf(scene, primitive), settings);
+    draw.lit = !plan::has(draw.features, Feature::Unlit);
     return draw;
 }
 
@@ -98,27 +99,47 @@ plan::Features featuresOf(const Scene& scene, const io::GltfPrimitive& primitive
     const auto textured = [](const io::GltfTextureRef& reference) {
         return reference.texture != io::kNone;
     };
-    const bool normals = !primitive.normals.empty();
+    const auto transformed = [&](const io::GltfTextureRef& reference) {
+        return textured(reference) && reference.uvTransform.has_value();
+    };
+    const bool unlit = material.unlit && !settings.materialOverride;
+    const bool normals = !primitive.normals.empty() && !unlit;
     add(Feature::Normals, normals);
     add(Feature::NormalTexture,
         normals && textured(material.normalTexture) &&
             !primitive.uvs[material.normalTexture.uvSet > 0 ? 1 : 0].empty());
     add(Feature::Tangents,
         plan::has(features, Feature::NormalTexture) && !primitive.tangents.empty());
+    add(Feature::TextureTransform,
+        plan::has(features, Feature::NormalTexture) && transformed(material.normalTexture));
     if (settings.materialOverride) {
         return features | bit(Feature::BlinnPhong);
     }
     add(Feature::VertexColors, !primitive.colors.empty());
     add(Feature::BaseColorTexture, textured(material.baseColorTexture));
-    add(Feature::OcclusionTexture, textured(material.occlusionTexture));
-    add(Feature::EmissiveTexture, textured(material.emissiveTexture));
     add(Feature::AlphaMask, material.alphaMode == io::AlphaMode::Mask);
     add(Feature::AlphaBlend, material.alphaMode == io::AlphaMode::Blend);
+    add(Feature::TextureTransform, transformed(material.baseColorTexture));
+    if (unlit) {
+        return features | bit(Feature::Unlit);
+    }
+    add(Feature::OcclusionTexture, textured(material.occlusionTexture));
+    add(Feature::EmissiveTexture, textured(material.emissiveTexture));
     add(Feature::BlinnPhong, material.blinnPhong.has_value());
     add(Feature::ExponentTexture,
         material.blinnPhong && textured(material.blinnPhong->exponentTexture));
     add(Feature::MetallicRoughnessTexture,
         !material.blinnPhong && textured(material.metallicRoughnessTexture));
+    add(Feature::SpecularTexture, !material.blinnPhong && textured(material.specularTexture));
+    add(Feature::SpecularColorTexture,
+        !material.blinnPhong && textured(material.specularColorTexture));
+    for (const io::GltfTextureRef* reference :
+         {&material.occlusionTexture, &material.emissiveTexture, &material.metallicRoughnessTexture,
+          &material.specularTexture, &material.specularColorTexture}) {
+        add(Feature::TextureTransform, transformed(*reference));
+    }
+    add(Feature::TextureTransform,
+        material.blinnPhong && transformed(material.blinnPhong->exponentTexture));
     return features;
 }
 

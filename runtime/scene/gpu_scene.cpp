@@ -20,6 +20,8 @@ std::vector<TextureSlot> slotsOf(const io::GltfMaterial& material) {
         {kNormalUnit, &material.normalTexture, TexelEncoding::Linear},
         {kOcclusionUnit, &material.occlusionTexture, TexelEncoding::Linear},
         {kEmissiveUnit, &material.emissiveTexture, TexelEncoding::Srgb},
+        {kSpecularUnit, &material.specularTexture, TexelEncoding::Linear},
+        {kSpecularColorUnit, &material.specularColorTexture, TexelEncoding::Srgb},
     };
     if (material.blinnPhong) {
         slots.push_back(
@@ -79,6 +81,12 @@ GpuPrimitive upload(gl::Device& device, const io::GltfPrimitive& primitive) {
     return result;
 }
 
+/// F0 of a dielectric: ((n - 1) / (n + 1))^2 times the specular colour. An index of 0 gives 1.
+glm::vec3 dielectricF0(const io::GltfMaterial& material) {
+    const float ratio = (material.ior - 1.0f) / (material.ior + 1.0f);
+    return ratio * ratio * material.specularColor;
+}
+
 } // namespace
 
 core::Result<GpuScene> GpuScene::make(gl::Device& device, const Scene& scene) {
@@ -135,9 +143,13 @@ blocks::LodestarMaterial materialBlock(const io::GltfMaterial& material,
     block.emissive = glm::vec4(values ? glm::vec3(0.0f) : material.emissive, material.normalScale);
     block.surface = {material.metallic, material.roughness, material.occlusionStrength,
                      material.alphaCutoff};
-    block.uvSets = {material.baseColorTexture.uvSet, material.metallicRoughnessTexture.uvSet,
-                    material.normalTexture.uvSet, material.occlusionTexture.uvSet};
-    block.uvSets2 = {material.emissiveTexture.uvSet, 0.0f, 0.0f, 0.0f};
+    block.specular = {dielectricF0(material), material.specular};
+    for (const TextureSlot& slot : slotsOf(material)) {
+        const glm::mat3x2 m = slot.reference->uvTransform.value_or(glm::mat3x2(1.0f));
+        const auto set = static_cast<float>(slot.reference->uvSet);
+        block.uvRows[2 * slot.unit] = {m[0].x, m[1].x, m[2].x, set};
+        block.uvRows[2 * slot.unit + 1] = {m[0].y, m[1].y, m[2].y, 0.0f};
+    }
     if (values) {
         block.diffuse = {values->diffuse, values->exponent};
         block.f0 = {values->f0, 1.0f};
@@ -146,8 +158,7 @@ blocks::LodestarMaterial materialBlock(const io::GltfMaterial& material,
         block.diffuse = {given.diffuse.value_or(glm::vec3(material.baseColor)),
                          given.exponent.value_or(0.0f)};
         block.f0 = {given.f0.value_or(glm::vec3(0.04f)), given.exponentScale};
-        block.uvSets2.y = static_cast<float>(given.exponentTexture.uvSet);
-        block.uvSets2.z = given.exponentEncoding == io::ExponentEncoding::Log2 ? 1.0f : 0.0f;
+        block.more.x = given.exponentEncoding == io::ExponentEncoding::Log2 ? 1.0f : 0.0f;
         // The shader multiplies k_L by the base colour, whose factor k_L replaces.
         block.baseColor = glm::vec4(glm::vec3(1.0f), material.baseColor.a);
     }

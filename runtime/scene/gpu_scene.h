@@ -25,21 +25,25 @@ struct GpuPrimitive {
 
 /// Texture units of the renderer, shared with its programs' samplers.
 enum TextureUnit : int {
-    kBaseColorUnit,
-    kMetallicRoughnessUnit,
-    kNormalUnit,
-    kOcclusionUnit,
-    kEmissiveUnit,
-    kExponentUnit,
-    kMaterialUnitCount,
+    kBaseColorUnit = LODESTAR_BASE_COLOR_UNIT,
+    kMetallicRoughnessUnit = LODESTAR_METALLIC_ROUGHNESS_UNIT,
+    kNormalUnit = LODESTAR_NORMAL_UNIT,
+    kOcclusionUnit = LODESTAR_OCCLUSION_UNIT,
+    kEmissiveUnit = LODESTAR_EMISSIVE_UNIT,
+    kExponentUnit = LODESTAR_EXPONENT_UNIT,
+    kSpecularUnit = LODESTAR_SPECULAR_UNIT,
+    kSpecularColorUnit = LODESTAR_SPECULAR_COLOR_UNIT,
+    kMaterialUnitCount = LODESTAR_MATERIAL_TEXTURES,
     kEnvironmentUnit = kMaterialUnitCount,
     kIrradianceUnit,
 };
 
 /// The names of the samplers, by unit.
-inline constexpr std::array<const char*, 8> kSamplerNames = {
-    "uBaseColorTexture", "uMetallicRoughnessTexture", "uNormalTexture", "uOcclusionTexture",
-    "uEmissiveTexture",  "uExponentTexture",          "uEnvironment",   "uIrradiance"};
+inline constexpr std::array<const char*, 10> kSamplerNames = {
+    "uBaseColorTexture", "uMetallicRoughnessTexture", "uNormalTexture",
+    "uOcclusionTexture", "uEmissiveTexture",          "uExponentTexture",
+    "uSpecularTexture",  "uSpecularColorTexture",     "uEnvironment",
+    "uIrradiance"};
 
 class GpuScene {
 public:

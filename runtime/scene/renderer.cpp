@@ -82,6 +82,10 @@ gl::Defines definesFor(plan::Features features, const RenderSettings& settings) 
         {"LODESTAR_ALPHA_BLEND", Feature::AlphaBlend},
         {"LODESTAR_PUNCTUAL_LIGHTS", Feature::PunctualLights},
         {"LODESTAR_ENVIRONMENT", Feature::Environment},
+        {"LODESTAR_TEXTURE_TRANSFORM", Feature::TextureTransform},
+        {"LODESTAR_UNLIT", Feature::Unlit},
+        {"LODESTAR_SPECULAR_TEXTURE", Feature::SpecularTexture},
+        {"LODESTAR_SPECULAR_COLOR_TEXTURE", Feature::SpecularColorTexture},
     };
     for (const auto& [name, feature] : macros) {
         defines.emplace_back(name, plan::has(features, feature) ? "1" : "0");

@@ -19,6 +19,16 @@ using glm::vec4;
 #endif
 
 #define LODESTAR_MAX_LIGHTS 16
+#define LODESTAR_MATERIAL_TEXTURES 8
+// Texture units of a material, the k of uvRows.
+#define LODESTAR_BASE_COLOR_UNIT 0
+#define LODESTAR_METALLIC_ROUGHNESS_UNIT 1
+#define LODESTAR_NORMAL_UNIT 2
+#define LODESTAR_OCCLUSION_UNIT 3
+#define LODESTAR_EMISSIVE_UNIT 4
+#define LODESTAR_EXPONENT_UNIT 5
+#define LODESTAR_SPECULAR_UNIT 6
+#define LODESTAR_SPECULAR_COLOR_UNIT 7
 
 LODESTAR_BLOCK(LodestarFrame)
     mat4 clipFromWorld;
@@ -45,8 +55,11 @@ LODESTAR_BLOCK(LodestarMaterial)
     vec4 surface;  ///< metallic, roughness, occlusion strength, alpha cutoff
     vec4 diffuse;  ///< k_L rgb, w Blinn-Phong exponent
     vec4 f0;       ///< F0 rgb, w scale of the exponent texture
-    vec4 uvSets;   ///< base colour, metallic-roughness, normal, occlusion: which UV set, 0 or 1
-    vec4 uvSets2;  ///< emissive, exponent, 1 if the exponent texture holds log2(s + 1), unused
+    vec4 specular; ///< a dielectric's F0 by index and specular colour, rgb; w specularFactor
+    vec4 more;     ///< x: 1 if the exponent texture holds log2(s + 1)
+    /// By texture unit k: rows 2k and 2k + 1 are (a, b, c) of u' = a u + b v + c and of v'; w of row
+    /// 2k is the UV set, 0 or 1. Without LODESTAR_TEXTURE_TRANSFORM only the set is read.
+    vec4 uvRows[2 * LODESTAR_MATERIAL_TEXTURES];
 LODESTAR_BLOCK_END(LodestarMaterial)
 
 #ifdef __cplusplus

@@ -9,13 +9,24 @@ uniform sampler2D uNormalTexture;
 uniform sampler2D uOcclusionTexture;
 uniform sampler2D uEmissiveTexture;
 uniform sampler2D uExponentTexture;
+uniform sampler2D uSpecularTexture;
+uniform sampler2D uSpecularColorTexture;
 
-vec2 uvOf(float set) { return set < 0.5 ? vUv0 : vUv1; }
+/// Where the texture of a unit is read.
+vec2 uvOf(int unit) {
+    vec4 row = uvRows[2 * unit];
+    vec2 uv = row.w < 0.5 ? vUv0 : vUv1;
+#if LODESTAR_TEXTURE_TRANSFORM
+    vec3 from = vec3(uv, 1.0);
+    uv = vec2(dot(row.xyz, from), dot(uvRows[2 * unit + 1].xyz, from));
+#endif
+    return uv;
+}
 
 vec4 baseColorHere() {
     vec4 color = baseColor * vColor;
 #if LODESTAR_BASE_COLOR_TEXTURE
-    color *= texture(uBaseColorTexture, uvOf(uvSets.x));
+    color *= texture(uBaseColorTexture, uvOf(LODESTAR_BASE_COLOR_UNIT));
 #endif
     return color;
 }
@@ -62,7 +73,7 @@ vec3 normalHere(vec3 view) {
     vec3 n = view; // points and lines have no side: they face the viewer
 #endif
 #if LODESTAR_NORMAL_TEXTURE
-    vec2 uv = uvOf(uvSets.z);
+    vec2 uv = uvOf(LODESTAR_NORMAL_UNIT);
     vec3 m = texture(uNormalTexture, uv).xyz * 2.0 - 1.0;
     m.xy *= emissive.w;
     n = lodestar_safeNormalize(tangentFrame(n, uv) * m, n);
@@ -72,8 +83,8 @@ vec3 normalHere(vec3 view) {
 
 float exponentHere(float given, float roughness) {
 #if LODESTAR_EXPONENT_TEXTURE
-    float texel = texture(uExponentTexture, uvOf(uvSets2.y)).r * f0.w;
-    return lodestar_repairExponent(uvSets2.z > 0.5 ? exp2(texel) - 1.0 : texel);
+    float texel = texture(uExponentTexture, uvOf(LODESTAR_EXPONENT_UNIT)).r * f0.w;
+    return lodestar_repairExponent(more.x > 0.5 ? exp2(texel) - 1.0 : texel);
 #elif LODESTAR_BLINN_PHONG
     return given;
 #else
@@ -81,11 +92,25 @@ float exponentHere(float given, float roughness) {
 #endif
 }
 
+/// F0 where a surface is no metal: min(F0 of the index x specular colour, 1) x specular factor
+/// [KHR_materials_specular]. 0.04 where a material says nothing.
+vec3 dielectricF0() {
+    vec3 color = specular.rgb;
+    float factor = specular.w;
+#if LODESTAR_SPECULAR_COLOR_TEXTURE
+    color *= texture(uSpecularColorTexture, uvOf(LODESTAR_SPECULAR_COLOR_UNIT)).rgb;
+#endif
+#if LODESTAR_SPECULAR_TEXTURE
+    factor *= texture(uSpecularTexture, uvOf(LODESTAR_SPECULAR_UNIT)).a;
+#endif
+    return min(color, vec3(1.0)) * factor;
+}
+
 LodestarSurface surfaceHere(vec3 view, vec4 color) {
     float metallic = surface.x;
     float roughness = surface.y;
 #if LODESTAR_METALLIC_ROUGHNESS_TEXTURE
-    vec4 texel = texture(uMetallicRoughnessTexture, uvOf(uvSets.y));
+    vec4 texel = texture(uMetallicRoughnessTexture, uvOf(LODESTAR_METALLIC_ROUGHNESS_UNIT));
     metallic *= texel.b;
     roughness *= texel.g;
 #endif
@@ -97,19 +122,19 @@ LodestarSurface surfaceHere(vec3 view, vec4 color) {
     here.f0 = f0.rgb;
 #else
     here.diffuse = lodestar_diffuseFromMetallic(color.rgb, metallic);
-    here.f0 = lodestar_f0FromMetallic(color.rgb, metallic);
+    here.f0 = mix(dielectricF0(), color.rgb, metallic);
 #endif
     here.exponent = exponentHere(diffuse.w, roughness);
     here.occlusion = 1.0;
 #if LODESTAR_OCCLUSION_TEXTURE
-    here.occlusion = mix(1.0, texture(uOcclusionTexture, uvOf(uvSets.w)).r, surface.z);
+    here.occlusion = mix(1.0, texture(uOcclusionTexture, uvOf(LODESTAR_OCCLUSION_UNIT)).r, surface.z);
 #endif
     return here;
 }
 
 vec3 emissiveHere() {
 #if LODESTAR_EMISSIVE_TEXTURE
-    return emissive.rgb * texture(uEmissiveTexture, uvOf(uvSets2.x)).rgb;
+    return emissive.rgb * texture(uEmissiveTexture, uvOf(LODESTAR_EMISSIVE_UNIT)).rgb;
 #else
     return emissive.rgb;
 #endif

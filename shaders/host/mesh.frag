@@ -48,6 +48,9 @@ void main() {
 #if !LODESTAR_ALPHA_BLEND
     color.a = 1.0;
 #endif
+#if LODESTAR_UNLIT
+    oRadiance = vec4(color.rgb * color.a, color.a);
+#else
     vec3 view = lodestar_safeNormalize(cameraPosition.xyz - cameraPosition.w * vPosition, vec3(0.0, 0.0, 1.0));
     LodestarSurface here = surfaceHere(view, color);
     vec3 radiance = emissiveHere();
@@ -68,4 +71,5 @@ void main() {
     radiance += punctualLights(here);
 #endif
     oRadiance = vec4(radiance * color.a, color.a);
+#endif
 }

@@ -52,6 +52,7 @@ TEST(CommandLine, BadCallsSayOneLineAndTheirStatus) {
          "gloss"},
         {"bad samples", {"render", scene, "-o", out, "--samples", "3"}, 2, "samples"},
         {"missing camera", {"render", scene, "-o", out, "--camera", "north"}, 2, "north"},
+        {"no scene of that name", {"plan", scene, "--scene", "attic"}, 2, "no scene 'attic'"},
         {"missing scene", {"render", folder.file("none.gltf"), "-o", out}, 3, "none.gltf"},
         {"missing panorama",
          {"render", scene, "-o", out, "--environment", folder.file("none.hdr")},
@@ -145,6 +146,31 @@ TEST(CommandLine, PlanIsJsonAndAgreesWithTheCountersOfRender) {
     }
     EXPECT_EQ(report.at("plan").at("effects").size(), plan.at("effects").size());
     EXPECT_EQ(report.at("estimators").at("specular"), "tent");
+}
+
+TEST(CommandLine, ASceneIsChosenByNameOrNumber) {
+    const TemporaryFolder folder;
+    const std::string file = folder.file("two.gltf");
+    std::ofstream(file) << R"({"asset": {"version": "2.0"}, "scene": 0,
+        "scenes": [{"name": "hall", "nodes": [0]}, {"name": "attic", "nodes": [1]}],
+        "nodes": [{"name": "table", "mesh": 0}, {"name": "chest", "mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"componentType": 5126, "count": 3, "type": "VEC3"}]})";
+    const auto subject = [&](const std::vector<std::string>& scene) {
+        std::vector<std::string> arguments = {"plan", file, "--environment", "constant:1,1,1"};
+        arguments.insert(arguments.end(), scene.begin(), scene.end());
+        const RunResult run = runLodestar(arguments);
+        EXPECT_EQ(run.status, 0) << run.err;
+        std::string names;
+        for (const auto& effect : nlohmann::json::parse(run.out).at("effects")) {
+            names += effect.at("effect") == "draw" ? effect.at("subject").get<std::string>() : "";
+        }
+        return names;
+    };
+    EXPECT_EQ(subject({}), "table/0");
+    EXPECT_EQ(subject({"--scene", "attic"}), "chest/0");
+    EXPECT_EQ(subject({"--scene", "1"}), "chest/0");
+    EXPECT_EQ(subject({"--scene", "hall"}), "table/0");
 }
 
 TEST(CommandLine, FramesAreNumbered) {

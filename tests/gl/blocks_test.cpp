@@ -33,9 +33,12 @@ gl::Defines everything(int specular, int diffuse, bool on) {
           "LODESTAR_NORMAL_TEXTURE", "LODESTAR_OCCLUSION_TEXTURE", "LODESTAR_EMISSIVE_TEXTURE",
           "LODESTAR_BLINN_PHONG", "LODESTAR_EXPONENT_TEXTURE", "LODESTAR_ALPHA_MASK",
           "LODESTAR_ALPHA_BLEND", "LODESTAR_PUNCTUAL_LIGHTS", "LODESTAR_ENVIRONMENT",
-          "LODESTAR_BIAS_VERTEX"}) {
+          "LODESTAR_BIAS_VERTEX", "LODESTAR_TEXTURE_TRANSFORM", "LODESTAR_SPECULAR_TEXTURE",
+          "LODESTAR_SPECULAR_COLOR_TEXTURE"}) {
         defines.emplace_back(name, on ? "1" : "0");
     }
+    // Unlit leaves all the rest out; EverySingleFeatureCompiles switches it on.
+    defines.emplace_back("LODESTAR_UNLIT", "0");
     defines.emplace_back("LODESTAR_SPECULAR", std::to_string(specular));
     defines.emplace_back("LODESTAR_DIFFUSE", std::to_string(diffuse));
     return defines;
@@ -78,8 +81,9 @@ TEST_F(Blocks, OffsetsAreTheDrivers) {
                             LODESTAR_FIELD(LodestarMaterial, surface),
                             LODESTAR_FIELD(LodestarMaterial, diffuse),
                             LODESTAR_FIELD(LodestarMaterial, f0),
-                            LODESTAR_FIELD(LodestarMaterial, uvSets),
-                            LODESTAR_FIELD(LodestarMaterial, uvSets2)};
+                            LODESTAR_FIELD(LodestarMaterial, specular),
+                            LODESTAR_FIELD(LodestarMaterial, more),
+                            LODESTAR_FIELD(LodestarMaterial, uvRows)};
     for (const Field& field : fields) {
         expectOffset(program->id(), field);
     }

@@ -146,5 +146,82 @@ TEST_F(Rendering, NormalMapTiltsTowardsItsColours) {
     }
 }
 
+TEST_F(Rendering, UnlitIsItsBaseColourAndAsksForNothing) {
+    io::GltfMaterial material;
+    material.unlit = true;
+    material.baseColor = {0.25f, 0.5f, 0.75f, 1.0f};
+    material.emissive = glm::vec3(5.0f); // no part of an unlit surface
+    const scene::Scene scene = scene::buildScene(testing::fileOf(testing::square(), material));
+    scene::RenderSettings settings = small();
+    settings.backdrop = false;
+    auto frame = renderer(scene)->render(testing::frontView(scene), settings);
+    ASSERT_TRUE(frame.ok());
+    const float* center = frame->radiance.at(48, 48);
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_EQ(center[c], material.baseColor[c]);
+    }
+    EXPECT_FALSE(frame->plan.runs("tent-mips"));
+    EXPECT_FALSE(frame->plan.runs("irradiance"));
+    EXPECT_LT(frame->counters.uploadBytes, 8192u); // uniform blocks only
+}
+
+TEST_F(Rendering, SpecularFactorAndIndexScaleF0) {
+    // Black and seen head on under radiance 1, a surface shows its F0, but for the rise of Fresnel
+    // at the view's few degrees and the lookup: 1e-3 of 1.
+    struct Case {
+        float ior, specular;
+        glm::vec3 color;
+        glm::vec3 f0;
+    };
+    const Case cases[] = {{1.5f, 1.0f, glm::vec3(1.0f), glm::vec3(0.04f)},
+                          {1.5f, 0.0f, glm::vec3(1.0f), glm::vec3(0.0f)},
+                          {3.0f, 0.5f, {1.0f, 0.5f, 8.0f}, {0.125f, 0.0625f, 0.5f}},
+                          {0.0f, 1.0f, glm::vec3(1.0f), glm::vec3(1.0f)}};
+    for (const Case& c : cases) {
+        io::GltfMaterial material;
+        material.metallic = 0.0f;
+        material.roughness = 0.2f;
+        material.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
+        material.ior = c.ior;
+        material.specular = c.specular;
+        material.specularColor = c.color;
+        const scene::Scene scene = scene::buildScene(testing::fileOf(testing::square(), material));
+        auto made = renderer(scene);
+        made->setEnvironment("white", lighting::cubeFromAnalytic(
+                                          lighting::ConstantEnvironment{glm::dvec3(1.0)}, 16));
+        auto frame = made->render(testing::frontView(scene, 30.0f), small());
+        ASSERT_TRUE(frame.ok());
+        for (int k = 0; k < 3; ++k) {
+            EXPECT_NEAR(frame->radiance.at(48, 48)[k], c.f0[k], 1e-3f) << c.ior;
+        }
+    }
+}
+
+TEST_F(Rendering, TextureTransformsMoveEachTexture) {
+    // Left half black, right half white, moved by half a picture: what was right is left.
+    for (const bool moved : {false, true}) {
+        io::GltfMaterial material;
+        material.unlit = true;
+        material.baseColorTexture.texture = 0;
+        if (moved) {
+            material.baseColorTexture.uvTransform = glm::mat3x2(1, 0, 0, 1, 0.5f, 0);
+        }
+        io::GltfFile file = testing::fileOf(testing::square(), material);
+        core::Image halves(2, 1, 4);
+        halves.pixels() = {0, 0, 0, 1, 1, 1, 1, 1};
+        file.images.push_back(halves);
+        io::GltfTexture texture;
+        texture.image = 0;
+        texture.magnification = texture.minification = io::Filter::Nearest;
+        texture.mip = io::MipFilter::None;
+        file.textures.push_back(texture);
+        const scene::Scene scene = scene::buildScene(std::move(file));
+        auto frame = renderer(scene)->render(testing::frontView(scene), small());
+        ASSERT_TRUE(frame.ok());
+        EXPECT_EQ(frame->radiance.at(30, 48)[0], moved ? 1.0f : 0.0f);
+        EXPECT_EQ(frame->radiance.at(66, 48)[0], moved ? 0.0f : 1.0f);
+    }
+}
+
 } // namespace
 } // namespace lodestar

@@ -4,12 +4,14 @@
 // does not depend on the picture kept; each must fail against every other golden and against
 // planted faults. `golden-pictures --update NAME` writes one anew: look at it before you commit it.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <functional>
 
 #include "lighting/environment.h"
+#include "lodestar/lobes.glsl"
 #include "scene/renderer.h"
 #include "support/gl_fixture.h"
 #include "support/picture.h"
@@ -41,20 +43,15 @@ io::GltfMaterial material(const glm::vec3& diffuse, const glm::vec3& f0, float e
                       std::max(shifted, 0.0f) * fault.exponentFactor);
 }
 
-/// Four spheres in a square, each in its own material.
-scene::Scene fourSpheres(const Fault& fault) {
+/// Four shapes in a square, each in its own material.
+io::GltfFile fourOf(const io::GltfPrimitive& shape,
+                    const std::array<io::GltfMaterial, 4>& materials) {
     io::GltfFile file;
-    const glm::vec3 gold(1.0f, 0.71f, 0.29f);
-    const io::GltfMaterial materials[] = {
-        material(glm::vec3(0.7f, 0.2f, 0.1f), glm::vec3(0.04f), 8.0f, fault),
-        material(glm::vec3(0.1f, 0.3f, 0.6f), glm::vec3(0.2f), 120.0f, fault),
-        material(glm::vec3(0.05f), gold, 30.0f, fault),
-        material(glm::vec3(0.3f), glm::vec3(0.5f), 1000.0f, fault)};
     for (int i = 0; i < 4; ++i) {
-        io::GltfPrimitive part = sphere(32, 64);
+        io::GltfPrimitive part = shape;
         part.material = i;
-        file.meshes.push_back({"sphere", {part}});
-        file.materials.push_back(materials[i]);
+        file.meshes.push_back({"shape", {part}});
+        file.materials.push_back(materials[static_cast<std::size_t>(i)]);
         io::GltfNode node;
         node.mesh = i;
         node.translation = {i % 2 == 0 ? -1.05f : 1.05f, i < 2 ? 1.05f : -1.05f, 0.0f};
@@ -62,7 +59,81 @@ scene::Scene fourSpheres(const Fault& fault) {
     }
     file.scenes.push_back({"four", {0, 1, 2, 3}});
     file.defaultScene = 0;
+    return file;
+}
+
+std::array<io::GltfMaterial, 4> fourMaterials(const Fault& fault) {
+    const glm::vec3 gold(1.0f, 0.71f, 0.29f);
+    return {material(glm::vec3(0.7f, 0.2f, 0.1f), glm::vec3(0.04f), 8.0f, fault),
+            material(glm::vec3(0.1f, 0.3f, 0.6f), glm::vec3(0.2f), 120.0f, fault),
+            material(glm::vec3(0.05f), gold, 30.0f, fault),
+            material(glm::vec3(0.3f), glm::vec3(0.5f), 1000.0f, fault)};
+}
+
+scene::Scene fourSpheres(const Fault& fault) {
+    return scene::buildScene(fourOf(sphere(32, 64), fourMaterials(fault)));
+}
+
+/// KHR_texture_transform: one picture of four colours, as it is, turned, scaled and moved.
+scene::Scene transformed(const Fault& fault) {
+    std::array<io::GltfMaterial, 4> materials;
+    const glm::mat3x2 transforms[] = {glm::mat3x2(1.0f),
+                                      glm::mat3x2(0.8f, -0.6f, 0.6f, 0.8f, 0.1f, 0.2f),
+                                      glm::mat3x2(3.0f, 0.0f, 0.0f, 2.0f, 0.0f, 0.0f),
+                                      glm::mat3x2(1.0f, 0.0f, 0.0f, 1.0f, 0.25f, 0.5f)};
+    for (std::size_t i = 0; i < 4; ++i) {
+        materials[i] = material(glm::vec3(0.9f), glm::vec3(0.1f), 30.0f, fault);
+        materials[i].baseColorTexture.texture = 0;
+        if (i > 0) {
+            materials[i].baseColorTexture.uvTransform = transforms[i];
+        }
+    }
+    io::GltfFile file = fourOf(square(), materials);
+    core::Image colors(2, 2, 4);
+    colors.pixels() = {1, 0.1f, 0.1f, 1, 0.1f, 1, 0.1f, 1, 0.1f, 0.1f, 1, 1, 0.9f, 0.9f, 0.1f, 1};
+    file.images.push_back(colors);
+    io::GltfTexture texture;
+    texture.image = 0;
+    texture.magnification = texture.minification = io::Filter::Nearest;
+    texture.mip = io::MipFilter::None;
+    file.textures.push_back(texture);
     return scene::buildScene(std::move(file));
+}
+
+/// KHR_materials_unlit: two of the four take no light.
+scene::Scene unlit(const Fault& fault) {
+    std::array<io::GltfMaterial, 4> materials = fourMaterials(fault);
+    materials[0].unlit = materials[3].unlit = true;
+    materials[0].baseColor = {0.9f, 0.5f, 0.1f, 1.0f};
+    materials[3].baseColor = {0.1f, 0.2f, 0.8f, 1.0f};
+    return scene::buildScene(fourOf(sphere(32, 64), materials));
+}
+
+/// Vertex colours: red and blue over the sphere's longitude, green over its height.
+scene::Scene vertexColors(const Fault& fault) {
+    io::GltfPrimitive shape = sphere(32, 64);
+    for (const glm::vec3& p : shape.positions) {
+        shape.colors.emplace_back(0.5f + 0.5f * p.x, 0.5f + 0.5f * p.y, 0.5f - 0.5f * p.x, 1.0f);
+    }
+    return scene::buildScene(fourOf(shape, fourMaterials(fault)));
+}
+
+/// KHR_materials_ior and _specular: none, water, diamond, and a coloured half.
+scene::Scene dielectrics(const Fault& fault) {
+    std::array<io::GltfMaterial, 4> materials;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const float exponent = *material({}, {}, 40.0f, fault).blinnPhong->exponent;
+        materials[i].metallic = 0.0f;
+        materials[i].baseColor = {glm::vec3(0.3f) * fault.diffuseFactor, 1.0f};
+        materials[i].roughness = shader::lodestar_roughnessFromExponent(exponent);
+    }
+    materials[0].specular = 0.0f;
+    materials[1].ior = 1.33f;
+    materials[2].ior = 2.42f;
+    materials[3].ior = 2.42f;
+    materials[3].specular = 0.5f;
+    materials[3].specularColor = {2.0f, 1.0f, 0.2f};
+    return scene::buildScene(fourOf(sphere(32, 64), materials));
 }
 
 struct Golden {
@@ -71,6 +142,7 @@ struct Golden {
     const char* specular;
     const char* diffuse;
     bool backdrop;
+    scene::Scene (*scene)(const Fault& fault) = fourSpheres;
     /// Thresholds on |a - b| / (1 + a): the largest a pixel may reach, the mean, and the share of
     /// pixels allowed beyond 1/255. Reasons in docs/testing.md.
     double largest = 0.5, mean = 1e-3, failing = 1e-3;
@@ -88,6 +160,10 @@ const Golden kGoldens[] = {
      lighting::DiscEnvironment{glm::normalize(glm::dvec3(0.48, 0.6, 0.64)), 0.2, glm::dvec3(20.0),
                                glm::dvec3(0.1)},
      "tent", "sh9", true},
+    {"texture-transform", kFaces, "tent", "irradiance", false, transformed},
+    {"unlit", kFaces, "tent", "irradiance", false, unlit},
+    {"vertex-colors", kFaces, "tent", "irradiance", false, vertexColors},
+    {"ior-specular", kFaces, "tent", "irradiance", false, dielectrics},
 };
 
 class Goldens : public GlTest {
@@ -96,7 +172,7 @@ public:
         return std::string(LODESTAR_TEST_DATA) + "/golden/images/" + golden.name + ".exr";
     }
     core::Image render(const Golden& golden, const Fault& fault = {}) {
-        const scene::Scene scene = fourSpheres(fault);
+        const scene::Scene scene = golden.scene(fault);
         auto renderer = scene::Renderer::make(device(), scene);
         EXPECT_TRUE(renderer.ok());
         (*renderer)->setEnvironment(golden.name,

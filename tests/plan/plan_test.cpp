@@ -172,11 +172,35 @@ TEST(Plan, LightsAddTheirFeatureToVisibleDrawsOnly) {
     EXPECT_FALSE(plan(input).runs("punctual-lights"));
 }
 
+TEST(Plan, UnlitDrawsAskForNoLight) {
+    DrawView sign = ball();
+    sign.features = bit(Feature::Unlit);
+    sign.lit = false; // diffuse and glossy say yes: an unlit draw is not asked
+    PlanInput input = scene({sign});
+    input.lightCount = 1;
+    const EffectPlan alone = plan(input);
+    EXPECT_EQ(alone.prepare, lighting::PreparedParts{});
+    for (const char* name : {"tent-mips", "irradiance", "punctual-lights"}) {
+        EXPECT_EQ(effect(alone, name).decision, Decision::Skip) << name;
+        EXPECT_NE(effect(alone, name).reason.find("unlit"), std::string::npos) << name;
+    }
+    EXPECT_EQ(alone.drawFeatures.at(0), bit(Feature::Unlit));
+    // Beside a lit draw it still pays for nothing.
+    input.draws.push_back(ball());
+    const EffectPlan both = plan(input);
+    EXPECT_TRUE(both.runs("tent-mips"));
+    for (std::size_t i = 0; i < both.drawOrder.size(); ++i) {
+        const bool lit = both.drawOrder[i] == 1;
+        EXPECT_EQ(has(both.drawFeatures[i], Feature::Environment), lit);
+        EXPECT_EQ(has(both.drawFeatures[i], Feature::PunctualLights), lit);
+    }
+}
+
 // The plan is pure: the same input gives the same plan, and every visible draw is drawn once.
 RC_GTEST_PROP(PlanProperty, PureAndComplete, ()) {
     std::vector<DrawView> draws(*rc::gen::inRange<std::size_t>(0, 40));
     for (DrawView& draw : draws) {
-        draw.features = *rc::gen::inRange<Features>(0, 1u << 14);
+        draw.features = *rc::gen::inRange<Features>(0, 1u << 18);
         draw.visible = *rc::gen::arbitrary<bool>();
         draw.blended = *rc::gen::arbitrary<bool>();
         draw.glossy = *rc::gen::arbitrary<bool>();

@@ -114,12 +114,12 @@ TEST(GltfContent, EveryComponentTypeIsRead) {
         {5122, false, bytesOf(std::int16_t{-300}, std::int16_t{300}), {-300.0f, 300.0f}},
         {5123, true, bytesOf(std::uint16_t{13107}, std::uint16_t{65535}), {0.2f, 1.0f}},
         {5123, false, bytesOf(std::uint16_t{40000}, std::uint16_t{1}), {40000.0f, 1.0f}},
-        {5125, false, bytesOf(std::uint32_t{1U << 31}, std::uint32_t{7}), {2147483648.0f, 7.0f}},
         {5126, false, bytesOf(-0.25f, 3.5f), {-0.25f, 3.5f}},
     };
     for (const Case& c : cases) {
         Json document = testing::triangleDocument();
         io::Bytes buffer = testing::triangleBytes();
+        document["extensionsUsed"].push_back("KHR_mesh_quantization");
         const int accessor =
             addAccessor(document, buffer, c.data, c.componentType, 3, "VEC2", c.normalized);
         document["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] = accessor;
@@ -128,6 +128,70 @@ TEST(GltfContent, EveryComponentTypeIsRead) {
         EXPECT_EQ(p.uvs[1][2], glm::vec2(c.expected[0], c.expected[1]))
             << c.componentType << c.normalized;
     }
+}
+
+// KHR_mesh_quantization: what each attribute may be without it, with it, and never.
+TEST(GltfContent, QuantizedAttributesNeedTheirExtension) {
+    enum When { Always, Listed, Never };
+    struct Case {
+        const char* attribute;
+        const char* type;
+        int componentType;
+        bool normalized;
+        When when;
+    };
+    const Case cases[] = {
+        {"POSITION", "VEC3", 5120, false, Listed},   {"POSITION", "VEC3", 5121, true, Listed},
+        {"POSITION", "VEC3", 5122, true, Listed},    {"POSITION", "VEC3", 5123, false, Listed},
+        {"POSITION", "VEC3", 5125, false, Never},    {"NORMAL", "VEC3", 5120, true, Listed},
+        {"NORMAL", "VEC3", 5122, true, Listed},      {"NORMAL", "VEC3", 5120, false, Never},
+        {"NORMAL", "VEC3", 5121, true, Never},       {"TANGENT", "VEC4", 5120, true, Listed},
+        {"TANGENT", "VEC4", 5122, true, Listed},     {"TANGENT", "VEC4", 5122, false, Never},
+        {"TEXCOORD_0", "VEC2", 5121, true, Always},  {"TEXCOORD_0", "VEC2", 5123, true, Always},
+        {"TEXCOORD_0", "VEC2", 5121, false, Listed}, {"TEXCOORD_0", "VEC2", 5120, true, Listed},
+        {"TEXCOORD_0", "VEC2", 5122, false, Listed}, {"TEXCOORD_0", "VEC2", 5125, false, Never},
+        {"COLOR_0", "VEC3", 5123, true, Always},     {"COLOR_0", "VEC3", 5122, true, Never}};
+    for (const Case& c : cases) {
+        for (const bool listed : {false, true}) {
+            SCOPED_TRACE(std::string(c.attribute) + " " + std::to_string(c.componentType) +
+                         (c.normalized ? " normalised" : "") + (listed ? ", listed" : ""));
+            Json document = testing::triangleDocument();
+            io::Bytes buffer = testing::triangleBytes();
+            const int size = c.componentType < 5122 ? 1 : c.componentType < 5125 ? 2 : 4;
+            const int stride = (size * (c.type[3] - '0') + 3) / 4 * 4;
+            io::Bytes data(static_cast<std::size_t>(3 * stride), 1);
+            document["meshes"][0]["primitives"][0]["attributes"][c.attribute] = addAccessor(
+                document, buffer, data, c.componentType, 3, c.type, c.normalized, stride);
+            if (listed) {
+                document["extensionsRequired"] = {"KHR_mesh_quantization"};
+            }
+            const core::Result<io::GltfFile> file = load(document, buffer);
+            ASSERT_EQ(file.ok(), c.when == Always || (c.when == Listed && listed))
+                << (file.ok() ? "" : file.error().message());
+            if (!file.ok()) {
+                EXPECT_NE(file.error().where.find(c.attribute), std::string::npos);
+                const bool named =
+                    file.error().what.find("KHR_mesh_quantization") != std::string::npos;
+                EXPECT_EQ(named, c.when == Listed) << file.error().what;
+            }
+        }
+    }
+}
+
+TEST(GltfContent, QuantizedValuesAreWhatTheySay) {
+    Json document = testing::triangleDocument();
+    document["extensionsRequired"] = {"KHR_mesh_quantization"};
+    io::Bytes buffer = testing::triangleBytes();
+    io::Bytes positions;
+    put<std::int16_t>(positions, {-300, 7, 32767, 0, 300, 0, 0, 0, 0, -32768, 1, 0});
+    io::Bytes normals;
+    put<std::int8_t>(normals, {0, 0, 127, 0, 0, -127, 0, 0, -128, 0, 0, 0});
+    Json& attributes = document["meshes"][0]["primitives"][0]["attributes"];
+    attributes["POSITION"] = addAccessor(document, buffer, positions, 5122, 3, "VEC3", false, 8);
+    attributes["NORMAL"] = addAccessor(document, buffer, normals, 5120, 3, "VEC3", true, 4);
+    const io::GltfPrimitive p = onlyPrimitive(document, buffer);
+    EXPECT_EQ(p.positions, (std::vector<glm::vec3>{{-300, 7, 32767}, {300, 0, 0}, {0, -32768, 1}}));
+    EXPECT_EQ(p.normals, (std::vector<glm::vec3>{{0, 0, 1}, {0, -1, 0}, {-1, 0, 0}}));
 }
 
 TEST(GltfContent, ColoursOfThreeAndFourChannels) {
@@ -289,8 +353,6 @@ TEST(GltfContent, RepairsAreCounted) {
          "texture that does not exist"},
         {"texture negative", R"({"materials":[{"normalTexture":{"index":-2}}]})",
          "texture that does not exist"},
-        {"third set of coordinates",
-         R"({"materials":[{"normalTexture":{"index":0,"texCoord":2}}]})", "texCoord"},
         {"wrap mode", R"({"samplers":[{"wrapS":5}]})", "wrap mode unknown"},
         {"filter", R"({"samplers":[{"minFilter":5}]})", "filter unknown"},
         {"emission", R"({"materials":[{"emissiveFactor":[10,0,0]}]})", "emissiveFactor above 1"},

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+//
+// EXT_lights_image_based as a cube map.
+#include <algorithm>
+#include <cmath>
+
+#include "io/environment_file.h"
+#include "io/gltf.h"
+#include "lighting/environment.h"
+#include "lodestar/cube.glsl"
+#include "lodestar/display.glsl"
+
+namespace lodestar::io {
+namespace {
+
+/// Smallest alpha of an RGBD texel: one step of 8 bits.
+constexpr float kLeastAlpha = 1.0f / 255.0f;
+/// Lookups a side of a texel when a cube is turned.
+constexpr int kLookups = 4;
+
+/// A face's radiance: colours / alpha [RGBD], times the intensity.
+core::Image radianceOf(const core::Image& stored, float intensity) {
+    core::Image face(stored.width(), stored.height(), 3);
+    for (int y = 0; y < stored.height(); ++y) {
+        for (int x = 0; x < stored.width(); ++x) {
+            const float* from = stored.at(x, y);
+            const float scale = intensity / std::max(from[3], kLeastAlpha);
+            for (int c = 0; c < 3; ++c) {
+                face.at(x, y)[c] = scale * shader::lodestar_linearFromSrgb(from[c]);
+            }
+        }
+    }
+    return face;
+}
+
+lighting::Cubemap turned(const lighting::Cubemap& cube, const glm::quat& worldFromEnvironment) {
+    const glm::quat environmentFromWorld = glm::conjugate(worldFromEnvironment);
+    const int width = cube.width();
+    lighting::Cubemap result(width);
+    const auto place = [&](int texel, int part) {
+        return (static_cast<float>(texel) + (static_cast<float>(part) + 0.5f) / kLookups) /
+                   static_cast<float>(width) * 2.0f -
+               1.0f;
+    };
+    for (int face = 0; face < 6; ++face) {
+        for (int y = 0; y < width; ++y) {
+            for (int x = 0; x < width; ++x) {
+                glm::vec4 sum(0.0f);
+                for (int k = 0; k < kLookups * kLookups; ++k) {
+                    const glm::vec3 world = shader::lodestar_cubeDirection(
+                        face, place(x, k % kLookups), place(y, k / kLookups));
+                    sum += cube.sampleLevel(environmentFromWorld * world, 0);
+                }
+                result.texel(face, x, y) = sum / static_cast<float>(kLookups * kLookups);
+            }
+        }
+    }
+    return result;
+}
+
+} // namespace
+
+core::Result<LoadedEnvironment> environmentOf(const GltfFile& file, int environment, int width) {
+    const GltfEnvironment& light = file.environments[static_cast<std::size_t>(environment)];
+    LoadedEnvironment loaded;
+    loaded.layout = EnvironmentLayout::SixFiles;
+    const int side = file.images[static_cast<std::size_t>(light.faces[0])].width();
+    std::array<core::Image, 6> faces;
+    for (std::size_t face = 0; face < 6; ++face) {
+        const core::Image& stored = file.images[static_cast<std::size_t>(light.faces[face])];
+        if (stored.width() != side || stored.height() != side || side < 1) {
+            return core::refused("the six faces must be square and of one size",
+                                 "/extensions/EXT_lights_image_based/lights/" +
+                                     std::to_string(environment) + "/specularImages/0");
+        }
+        faces[face] = radianceOf(stored, light.intensity);
+        lighting::repairRadiance(faces[face], loaded.warnings);
+    }
+    loaded.base = lighting::cubeFromFaces(faces, width);
+    if (std::abs(light.rotation.w) < 1.0f) {
+        loaded.base = turned(loaded.base, light.rotation);
+    }
+    return loaded;
+}
+
+} // namespace lodestar::io
