@@ -16,7 +16,9 @@ namespace lodestar::lighting {
 
 /// Tent mips: each texel is the (1 3 3 1) x (1 3 3 1) weighted mean of the 4x4 finer texels about
 /// it, across face borders, weighted by solid angle; each level and channel is then scaled to keep
-/// the sphere's mean. For glossy lookups with lodestar_tentLevel; never for diffuse light.
+/// the sphere's mean. Levels with faces of at most 16 texels are means over round lobes instead,
+/// since tents as coarse are stars about the cube's corners. For glossy lookups with
+/// lodestar_tentLevel.
 [[nodiscard]] Cubemap tentMips(const Cubemap& base);
 
 /// The same in place: fills levels 1 and up of a map that has them from its level 0, without

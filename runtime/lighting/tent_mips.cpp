@@ -13,6 +13,7 @@
 #include "lighting/cube_seams.h"
 #include "lighting/float4.h"
 #include "lighting/mips.h"
+#include "lighting/round_levels.h"
 #include "lighting/solid_angle.h"
 #include "lighting/vector_clones.h"
 
@@ -237,13 +238,13 @@ void reduceTent(Cubemap& map, int coarseLevel) {
     }
 }
 
-/// A scale a channel that makes the sum of a level the wanted one.
-glm::vec4 scaleTo(const glm::dvec4& wanted, const glm::dvec4& sum) {
+/// Scales a level, channel by channel, so that its sum becomes the wanted one.
+void scaleLevel(Cubemap& chain, int level, const glm::dvec4& wanted, const glm::dvec4& sum) {
     glm::vec4 scale(1.0f);
     for (int c = 0; c < 4; ++c) {
         scale[c] = sum[c] > 0.0 ? static_cast<float>(wanted[c] / sum[c]) : 1.0f;
     }
-    return scale;
+    scaleTexels(asFloat4(chain.level(level).data()), chain.level(level).size(), asFloat4(&scale));
 }
 
 } // namespace
@@ -269,8 +270,11 @@ void fillTentMips(Cubemap& chain) {
             wanted = sum;
             continue;
         }
-        const glm::vec4 scale = scaleTo(wanted, sum);
-        scaleTexels(asFloat4(chain.level(k).data()), chain.level(k).size(), asFloat4(&scale));
+        scaleLevel(chain, k, wanted, sum);
+    }
+    roundCoarseLevels(chain);
+    for (int k = levels - 1; k > 0 && chain.width(k) <= kWidestRound; --k) {
+        scaleLevel(chain, k, wanted, sphereMean(chain, k) * (4.0 * std::numbers::pi));
     }
 }
 

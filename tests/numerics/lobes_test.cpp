@@ -222,6 +222,27 @@ TEST(TexelSize, CountsTexels) {
     EXPECT_NEAR(sum * 6.0 / (4.0 * M_PI), 1.0, 6e-4);
 }
 
+TEST(TentLevel, FallsWithTheExponentAndMovesWithTheDirection) {
+    for (const vec3& d : {vec3(0.0f, 0.0f, 1.0f), vec3(0.6f, 0.0f, 0.8f), vec3(0.577f)}) {
+        float before = INFINITY;
+        for (float logExponent = 0.0f; logExponent < 20.0f; logExponent += 0.01f) {
+            const float s = std::exp2(logExponent) - 1.0f;
+            const float level = lodestar_tentLevel(d, s, 4096.0f, 20.0f);
+            EXPECT_LT(level, before) << s;
+            before = level;
+        }
+    }
+    // MIP-5: round levels do not see the texel's size, tents all of it.
+    const vec3 corner(0.57735027f);
+    const vec3 centre(0.0f, 1.0f, 0.0f);
+    EXPECT_EQ(lodestar_tentLevel(corner, 20.0f, 256.0f, 8.0f),
+              lodestar_tentLevel(centre, 20.0f, 256.0f, 8.0f));
+    // 0.75 log2(3) between them; the levels are rounded at 3, eight units in the last place.
+    EXPECT_NEAR(lodestar_tentLevel(corner, 8191.0f, 256.0f, 8.0f) -
+                    lodestar_tentLevel(centre, 8191.0f, 256.0f, 8.0f),
+                0.75 * std::log2(3.0), 2e-6);
+}
+
 TEST(Furnace, FresnelSplitsAllLight) {
     // k_L (1 - F) + F under a white environment: 1 for (k_L = 1, F0 = 0) and for F0 = 1.
     for (const float s : {0.0f, 0.5f, 1.0f, 10.0f, 1e3f, 1e5f, 1e7f, kInfinity, kNan, -1.0f}) {

@@ -72,11 +72,11 @@ double texelSizeError(const glm::dvec3& d) {
     return 0.75 * (log2Error(glm::dot(d / m, d / m)) + 1.45 * 8.0 * u) + u;
 }
 
-/// kappa is 0.2 (log2(s + 1) - 1): its error times the size term's at most 0.73, and three sums of
-/// numbers up to 14.
+/// The size term goes in once, and less 0.75 of itself where the level is beyond 32 texels, so that
+/// it counts at most once; log2(s + 1) with 0.375; six sums and products of numbers up to 18.
 double tentLevelError(const glm::dvec3& d, double exponent, double width) {
-    const double kappa = 0.2 * (log2Error(exponent + 1.0) + 1.5 * u) + 3.0 * u;
-    return mipLevelError(exponent, width) + 0.73 * kappa + texelSizeError(d) + 3.0 * 14.0 * u;
+    return mipLevelError(exponent, width) + texelSizeError(d) +
+           0.375 * (log2Error(exponent + 1.0) + 1.5 * u) + 6.0 * 18.0 * u;
 }
 
 /// px = (dx k - d dx_k) / k^2, each product off by u of |dx| |d|; 1 / k^2 by 4 u; the level is half

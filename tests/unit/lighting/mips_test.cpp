@@ -151,7 +151,7 @@ glm::dvec4 definedTent(const Cubemap& fine, int face, int i, int j) {
 }
 
 TEST(Mips, TentFollowsItsDefinition) {
-    for (const int n : {2, 4, 16}) {
+    for (const int n : {36, 64}) { // level 1 has more than 16 texels a side and is no round level
         const Cubemap base = randomCube(n, 11);
         const Cubemap chain = tentMips(base);
         Cubemap defined(n / 2);
