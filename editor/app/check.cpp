@@ -8,9 +8,11 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
+#include "app/check_scene.h"
 #include "app/command.h"
 #include "app/commands.h"
 #include "io/environment_file.h"
@@ -32,91 +34,37 @@ Json warningsJson(const core::Tally& warnings) {
     return json;
 }
 
-Json extensionsJson(const std::vector<std::string>& names) {
+Json problemsJson(const io::GltfProblems& problems) {
     Json json = Json::array();
-    for (const std::string& name : names) {
-        json.push_back({{"name", name}, {"supported", io::isSupportedExtension(name)}});
+    for (const io::GltfProblem& problem : problems.list()) {
+        json.push_back({{"pointer", problem.where},
+                        {"severity", "error"},
+                        {"repaired", problem.repaired},
+                        {"message", problem.what}});
     }
     return json;
 }
 
-Json texturesJson(const io::GltfFile& scene) {
-    Json json = Json::array();
-    for (const io::GltfTexture& texture : scene.textures) {
-        if (texture.image == io::kNone) {
-            json.push_back({{"image", nullptr}});
-            continue;
-        }
-        const core::Image& image = scene.images[static_cast<std::size_t>(texture.image)];
-        json.push_back(
-            {{"image", texture.image}, {"width", image.width()}, {"height", image.height()}});
-    }
-    return json;
-}
-
-struct MeshCounts {
-    std::size_t primitives = 0;
-    std::size_t vertices = 0;
-    std::size_t triangles = 0;
-    std::size_t lines = 0;
-    std::size_t points = 0;
-};
-
-MeshCounts countMeshes(const io::GltfFile& scene) {
-    MeshCounts counts;
-    for (const io::GltfMesh& mesh : scene.meshes) {
-        counts.primitives += mesh.primitives.size();
-        for (const io::GltfPrimitive& primitive : mesh.primitives) {
-            const std::size_t indices = primitive.indices.size();
-            counts.vertices += primitive.positions.size();
-            switch (primitive.topology) {
-            case io::Topology::Triangles:
-                counts.triangles += indices / 3;
-                break;
-            case io::Topology::Lines:
-                counts.lines += indices / 2;
-                break;
-            case io::Topology::Points:
-                counts.points += indices;
-                break;
-            }
-        }
-    }
-    return counts;
-}
-
-core::Result<Json> checkScene(const std::string& file) {
-    core::Result<io::GltfFile> scene = io::loadGltf(file);
-    if (!scene) {
-        return scene.error();
-    }
-    warn(scene->warnings, file);
-    const MeshCounts counts = countMeshes(*scene);
+/// A scene's JSON; the first refusal goes to `refusal`, if there is one.
+Json checkScene(const std::string& file, std::optional<core::Error>& refusal) {
+    const io::GltfCheck check = io::checkGltf(file);
     Json json;
     json["file"] = file;
     json["kind"] = "scene";
-    json["scenes"] = scene->scenes.size();
-    json["sceneNames"] = Json::array();
-    for (const io::GltfScene& each : scene->scenes) {
-        json["sceneNames"].push_back(each.name);
+    if (check.file) {
+        warn(check.file->warnings, file);
+        describeScene(*check.file, json);
+        json["warnings"] = warningsJson(check.file->warnings);
+    } else {
+        refusal = core::inFile(check.problems.first(), file);
+        json["error"] = refusal->what;
+        json["where"] = refusal->where;
+        if (check.problems.refusedCount() > 1) {
+            refusal->what += ", and " + std::to_string(check.problems.refusedCount() - 1) + " more";
+        }
     }
-    json["nodes"] = scene->nodes.size();
-    json["meshes"] = scene->meshes.size();
-    json["primitives"] = counts.primitives;
-    json["vertices"] = counts.vertices;
-    json["triangles"] = counts.triangles;
-    json["lines"] = counts.lines;
-    json["points"] = counts.points;
-    json["materials"] = scene->materials.size();
-    json["textures"] = texturesJson(*scene);
-    json["images"] = scene->images.size();
-    json["cameras"] = scene->cameras.size();
-    json["lights"] = scene->lights.size();
-    json["animations"] = scene->animationCount;
-    json["skins"] = scene->skinCount;
-    json["extensionsUsed"] = extensionsJson(scene->extensionsUsed);
-    json["extensionsRequired"] = extensionsJson(scene->extensionsRequired);
-    json["warnings"] = warningsJson(scene->warnings);
+    json["problems"] = problemsJson(check.problems);
+    json["problemsLeftOut"] = check.problems.leftOut();
     return json;
 }
 
@@ -263,15 +211,17 @@ bool endsLikeScene(const std::string& file) {
     return file.ends_with(".gltf") || file.ends_with(".glb");
 }
 
-core::Result<Json> checkFile(const std::string& file) {
+Json checkFile(const std::string& file, std::optional<core::Error>& refusal) {
     core::Result<io::Bytes> bytes = io::readFile(file);
-    if (!bytes) {
-        return bytes.error();
+    if (bytes && (endsLikeScene(file) || looksLikeScene(*bytes))) {
+        return checkScene(file, refusal);
     }
-    if (endsLikeScene(file) || looksLikeScene(*bytes)) {
-        return checkScene(file);
+    core::Result<Json> json = bytes ? checkImage(file, *bytes) : bytes.error();
+    if (json) {
+        return std::move(*json);
     }
-    return checkImage(file, *bytes);
+    refusal = json.error();
+    return {{"file", file}, {"error", refusal->what}, {"where", refusal->where}};
 }
 
 } // namespace
@@ -280,19 +230,12 @@ int runCheck(const std::vector<std::string>& files) {
     Json results = Json::array();
     int status = 0;
     for (const std::string& file : files) {
-        core::Result<Json> result = checkFile(file);
-        if (result) {
-            results.push_back(std::move(*result));
-            continue;
+        std::optional<core::Error> refusal;
+        results.push_back(checkFile(file, refusal));
+        if (refusal && status == 0) {
+            // A failing call prints one line; the JSON says all.
+            status = fail(*refusal);
         }
-        const core::Error& error = result.error();
-        // A failing call prints one line; the JSON says all.
-        status = status == 0 ? fail(error) : status;
-        Json json;
-        json["file"] = file;
-        json["error"] = error.what;
-        json["where"] = error.where;
-        results.push_back(std::move(json));
     }
     const Json& printed = files.size() == 1 ? results.front() : results;
     // Names in a file need not be valid UTF-8; the output is.

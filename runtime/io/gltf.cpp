@@ -2,21 +2,13 @@
 #include "io/gltf.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "io/gltf_internal.h"
 
 namespace lodestar::io {
 namespace detail {
 namespace {
-
-constexpr std::size_t kMaxMessage = 300;
-
-void shorten(std::string& text) {
-    if (text.size() > kMaxMessage) {
-        text.resize(kMaxMessage);
-        text += "...";
-    }
-}
 
 void listExtensions(GltfContext& context) {
     const auto list = [&](const char* key, std::vector<std::string>& names) {
@@ -33,30 +25,64 @@ void listExtensions(GltfContext& context) {
     }
 }
 
-core::Result<GltfFile> convert(const Json& document, const tinygltf::Model& model,
-                               const SideFiles& files, bool decodeImages) {
-    GltfFile file;
-    GltfContext context{document, model, file};
+/// Whether the next step is of use.
+bool goOn(const GltfProblems& problems, bool all) {
+    return all || !problems.refused();
+}
+
+void convert(GltfContext& context, const SideFiles& files, bool decodeImages, bool all) {
     listExtensions(context);
-    file.animationCount = static_cast<int>(memberSize(document, "animations"));
-    file.skinCount = static_cast<int>(memberSize(document, "skins"));
+    context.file.animationCount = static_cast<int>(memberSize(context.document, "animations"));
+    context.file.skinCount = static_cast<int>(memberSize(context.document, "skins"));
+    for (const tinygltf::Buffer& buffer : context.model.buffers) {
+        context.file.bufferBytes += buffer.data.size();
+    }
     convertTextures(context);
     convertLights(context);
     for (const auto step : {convertMaterials, convertCameras, convertNodes, convertScenes,
                             convertEnvironments, convertMeshes}) {
         core::Result<void> done = step(context);
         if (!done) {
-            return done.error();
+            context.problems.refuse(done.error());
+            return;
+        }
+        if (!goOn(context.problems, all)) {
+            return;
         }
     }
     core::Result<void> images = loadImages(context, files, decodeImages);
     if (!images) {
-        return images.error();
+        context.problems.refuse(images.error());
     }
-    return file;
 }
 
-core::Result<GltfFile> load(const std::filesystem::path& path, const GltfOptions& options) {
+/// The document and its buffers, checked. Nothing where nothing more can be said.
+std::optional<std::vector<Bytes>> checkedBuffers(GltfSource& source, const SideFiles& files,
+                                                 bool all, GltfProblems& problems) {
+    checkRequired(source.document, problems);
+    if (!goOn(problems, all) || !checkSchema(source.document, problems) || !goOn(problems, all)) {
+        return std::nullopt;
+    }
+    std::vector<Bytes> buffers = loadBuffers(source, files, problems);
+    if (!goOn(problems, all)) {
+        return std::nullopt;
+    }
+    checkRanges(source.document, buffers, problems);
+    if (!goOn(problems, all)) {
+        return std::nullopt;
+    }
+    if (all) {
+        checkRules(source.document, buffers, problems);
+    }
+    if (problems.refused()) {
+        cutOutRefused(source.document, buffers, problems);
+    }
+    return buffers;
+}
+
+/// Every step of loading; `all` goes on behind a refusal as far as is safe.
+core::Result<GltfFile> load(const std::filesystem::path& path, const GltfOptions& options, bool all,
+                            GltfProblems& problems) {
     core::Result<Bytes> bytes = readFile(path);
     if (!bytes) {
         return bytes.error();
@@ -65,29 +91,29 @@ core::Result<GltfFile> load(const std::filesystem::path& path, const GltfOptions
     if (!source) {
         return source.error();
     }
-    for (const auto check : {checkAsset, checkSchema}) {
-        core::Result<void> checked = check(source->document);
-        if (!checked) {
-            return checked.error();
-        }
+    core::Result<void> asset = checkAsset(source->document);
+    if (!asset) {
+        return asset.error();
     }
     core::Result<SideFiles> files = SideFiles::open(path, options.assetRoot);
     if (!files) {
         return files.error();
     }
-    core::Result<std::vector<Bytes>> buffers = loadBuffers(*source, *files);
+    std::optional<std::vector<Bytes>> buffers = checkedBuffers(*source, *files, all, problems);
     if (!buffers) {
-        return buffers.error();
-    }
-    core::Result<void> ranges = checkRanges(source->document, *buffers);
-    if (!ranges) {
-        return ranges.error();
+        return problems.first();
     }
     core::Result<tinygltf::Model> model = parseModel(source->document, std::move(*buffers));
     if (!model) {
         return model.error();
     }
-    return convert(source->document, *model, *files, options.decodeImages);
+    GltfFile file;
+    GltfContext context{source->document, *model, file, problems};
+    convert(context, *files, options.decodeImages, all);
+    if (problems.refused()) {
+        return problems.first();
+    }
+    return file;
 }
 
 } // namespace
@@ -101,14 +127,23 @@ bool GltfFile::extensionListed(const std::string& name) const {
 }
 
 core::Result<GltfFile> loadGltf(const std::filesystem::path& path, const GltfOptions& options) {
-    core::Result<GltfFile> file = detail::load(path, options);
-    if (!file) {
-        core::Error error = core::inFile(file.error(), path.string());
-        detail::shorten(error.what);
-        detail::shorten(error.where);
-        return error;
+    GltfProblems problems;
+    core::Result<GltfFile> file = detail::load(path, options, false, problems);
+    if (!file && !problems.refused()) {
+        problems.refuse(file.error());
     }
-    return file;
+    return file ? std::move(file) : core::inFile(problems.first(), path.string());
+}
+
+GltfCheck checkGltf(const std::filesystem::path& path, const GltfOptions& options) {
+    GltfCheck check;
+    core::Result<GltfFile> file = detail::load(path, options, true, check.problems);
+    if (file) {
+        check.file = std::move(*file);
+    } else if (!check.problems.refused()) {
+        check.problems.refuse(file.error());
+    }
+    return check;
 }
 
 } // namespace lodestar::io

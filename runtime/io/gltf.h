@@ -22,6 +22,7 @@
 #include "core/image.h"
 #include "core/result.h"
 #include "core/tally.h"
+#include "io/gltf_problems.h"
 
 namespace lodestar::io {
 
@@ -169,6 +170,15 @@ struct GltfScene {
     int environment = kNone;
 };
 
+/// What an image was in the file.
+struct GltfImageInfo {
+    std::string name;
+    std::string format; ///< "png", "jpeg", ...; empty where it could not be read
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+};
+
 /// A whole file. All indices are valid or kNone; the nodes of a scene form a forest.
 struct GltfFile {
     std::vector<GltfScene> scenes;
@@ -179,6 +189,7 @@ struct GltfFile {
     std::vector<GltfTexture> textures;
     std::vector<core::Image>
         images; ///< 4 channels, as stored; 1x1 white where decoding failed (counted)
+    std::vector<GltfImageInfo> imageInfos; ///< as many as the file's images, decoded or not
     std::vector<GltfCamera> cameras;
     std::vector<GltfLight> lights;
     std::vector<GltfEnvironment> environments;
@@ -186,7 +197,8 @@ struct GltfFile {
     std::vector<std::string> extensionsRequired;
     int animationCount = 0;
     int skinCount = 0;
-    core::Tally warnings; ///< what was repaired or ignored
+    std::size_t bufferBytes = 0; ///< of all buffers
+    core::Tally warnings;        ///< what was repaired or ignored
 
     /// Whether the file lists an extension as used or required.
     [[nodiscard]] bool extensionListed(const std::string& name) const;
@@ -203,5 +215,16 @@ struct GltfOptions {
 /// Loads .gltf or .glb. @errors InputRefused with the JSON pointer or byte of what is wrong
 [[nodiscard]] core::Result<GltfFile> loadGltf(const std::filesystem::path& path,
                                               const GltfOptions& options = {});
+
+/// A file and everything that is wrong with it.
+struct GltfCheck {
+    std::optional<GltfFile> file; ///< what loadGltf gives; none where it refuses
+    GltfProblems problems;
+};
+
+/// The steps of loadGltf, which go on behind a problem as far as is safe, and the standard's rules
+/// that loading can do without.
+[[nodiscard]] GltfCheck checkGltf(const std::filesystem::path& path,
+                                  const GltfOptions& options = {});
 
 } // namespace lodestar::io

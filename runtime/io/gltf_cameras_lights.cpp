@@ -129,7 +129,7 @@ core::Result<void> convertCameras(GltfContext& context) {
                 ? readPerspective(source.perspective, json["perspective"], camera, at)
                 : readOrthographic(source.orthographic, camera, at);
         if (!read) {
-            return read;
+            context.problems.refuse(read.error());
         }
         context.file.cameras.push_back(camera);
     }

@@ -43,6 +43,10 @@ core::Result<void> loadImages(GltfContext& context, const SideFiles& files, bool
     Budget encodedLeft(kMaxImageBytes);
     Budget decodedLeft(kMaxImageBytes);
     for (std::size_t i = 0; i < memberSize(context.document, "images"); ++i) {
+        GltfImageInfo& described = context.file.imageInfos.emplace_back();
+        if (const Json* name = member(context.document["images"][i], "name")) {
+            described.name = name->get<std::string>();
+        }
         if (!decode) {
             context.file.images.emplace_back();
             continue;
@@ -52,7 +56,12 @@ core::Result<void> loadImages(GltfContext& context, const SideFiles& files, bool
             context.file.warnings.add("image " + std::to_string(i) +
                                       " taken as white: " + error.message());
             context.file.images.push_back(white());
+            context.problems.repaired("image taken as white: " + error.message(), at);
         };
+        if (!context.problems.clean(at)) {
+            context.file.images.push_back(white());
+            continue;
+        }
         core::Result<Bytes> bytes = encodedImage(context, context.document["images"][i], files);
         if (!bytes) {
             useWhite(bytes.error());
@@ -66,6 +75,10 @@ core::Result<void> loadImages(GltfContext& context, const SideFiles& files, bool
             useWhite(info.error());
             continue;
         }
+        described.format = info->format;
+        described.width = info->width;
+        described.height = info->height;
+        described.channels = info->channels;
         if (!decodedLeft.spend(static_cast<std::size_t>(info->width) *
                                static_cast<std::size_t>(info->height) * 4 * sizeof(float))) {
             return tooMuch(at);

@@ -19,6 +19,7 @@
 #include "core/tally.h"
 #include "io/file.h"
 #include "io/gltf.h"
+#include "io/gltf_problems.h"
 
 namespace lodestar::io::detail {
 
@@ -49,11 +50,23 @@ struct GltfSource {
 /// Takes .gltf or .glb apart: lengths, JSON nesting and size first, then the JSON itself.
 [[nodiscard]] core::Result<GltfSource> readContainer(Bytes bytes);
 
-/// Version 2.x, no required extension that is not read.
+/// Version 2.x.
 [[nodiscard]] core::Result<void> checkAsset(const Json& document);
 
-/// Types, ranges, array lengths and references of every key that is read.
-[[nodiscard]] core::Result<void> checkSchema(const Json& document);
+/// No required extension that is not read.
+void checkRequired(const Json& document, GltfProblems& problems);
+
+/// Types, ranges, array lengths and references of every key that is read. False where the
+/// document's arrays are none, and nothing more can be said.
+[[nodiscard]] bool checkSchema(const Json& document, GltfProblems& problems);
+
+/// What the standard asks beyond what loading needs: breaches that are mended or do no harm.
+/// Refused elements are left out. @pre checkRanges
+void checkRules(const Json& document, const std::vector<Bytes>& buffers, GltfProblems& problems);
+
+/// Takes refused elements and what hangs on them out of a document, their places kept, so that the
+/// rest can be looked at. @pre checkRanges
+void cutOutRefused(Json& document, std::vector<Bytes>& buffers, GltfProblems& problems);
 
 /// A copy with only the keys that checkSchema knows.
 [[nodiscard]] Json knownKeys(const Json& document);
@@ -69,8 +82,7 @@ struct ElementLayout {
 [[nodiscard]] bool elementLayout(int componentType, const std::string& type, ElementLayout& layout);
 
 /// Buffer views within their buffers and accessors within their views.
-[[nodiscard]] core::Result<void> checkRanges(const Json& document,
-                                             const std::vector<Bytes>& buffers);
+void checkRanges(const Json& document, const std::vector<Bytes>& buffers, GltfProblems& problems);
 
 /// Side files of one document.
 class SideFiles {
@@ -86,9 +98,9 @@ private:
     std::string prefix_; ///< from the root to the document's folder, "" or ending in "/"
 };
 
-/// Every buffer's bytes, cut to its byteLength.
-[[nodiscard]] core::Result<std::vector<Bytes>> loadBuffers(GltfSource& source,
-                                                           const SideFiles& files);
+/// Every buffer's bytes, cut to its byteLength; none where it was refused.
+[[nodiscard]] std::vector<Bytes> loadBuffers(GltfSource& source, const SideFiles& files,
+                                             GltfProblems& problems);
 
 /// Runs tinygltf over the checked document. Buffers are handed over in memory; it opens no file and
 /// sees no image.
@@ -116,6 +128,7 @@ struct GltfContext {
     const Json& document;
     const tinygltf::Model& model;
     GltfFile& file;
+    GltfProblems& problems;
     Budget geometry{kMaxGeometryBytes};
 };
 

@@ -359,9 +359,9 @@ core::Result<void> convertMaterials(GltfContext& context) {
         core::Result<GltfMaterial> material =
             reader.read(context.model.materials[i], context.document["materials"][i]);
         if (!material) {
-            return material.error();
+            context.problems.refuse(material.error());
         }
-        context.file.materials.push_back(std::move(*material));
+        context.file.materials.push_back(material ? std::move(*material) : GltfMaterial());
     }
     return {};
 }

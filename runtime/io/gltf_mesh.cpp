@@ -314,7 +314,8 @@ core::Result<void> convertMeshes(GltfContext& context) {
             core::Result<bool> drawable =
                 PrimitiveReader(context, source.primitives[p], primitives[p], at).read(primitive);
             if (!drawable) {
-                return drawable.error();
+                context.problems.refuse(drawable.error());
+                continue;
             }
             const std::size_t targets = memberSize(primitives[p], "targets");
             context.file.warnings.add("morph target, not applied", targets);

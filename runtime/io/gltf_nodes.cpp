@@ -107,27 +107,30 @@ core::Result<GltfNode> readNode(GltfContext& context, std::size_t index) {
     return node;
 }
 
-/// Fills in the parents; refuses a second one.
-core::Result<void> linkParents(std::vector<GltfNode>& nodes) {
+/// Fills in the parents; refuses a second one and takes it away.
+void linkParents(std::vector<GltfNode>& nodes, GltfProblems& problems) {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
+        std::vector<int> kept;
         for (std::size_t c = 0; c < nodes[i].children.size(); ++c) {
-            GltfNode& child = nodes[static_cast<std::size_t>(nodes[i].children[c])];
+            const int child = nodes[i].children[c];
+            int& parent = nodes[static_cast<std::size_t>(child)].parent;
             const std::string at = pointer(pointer("/nodes", i) + "/children", c);
-            if (static_cast<std::size_t>(nodes[i].children[c]) == i) {
-                return core::refused("node is its own child", at);
+            if (child == static_cast<int>(i)) {
+                problems.refuse("node is its own child", at);
+            } else if (parent != kNone) {
+                problems.refuse("node has two parents", at);
+            } else {
+                parent = static_cast<int>(i);
+                kept.push_back(child);
             }
-            if (child.parent != kNone) {
-                return core::refused("node has two parents", at);
-            }
-            child.parent = static_cast<int>(i);
         }
+        nodes[i].children = std::move(kept);
     }
-    return {};
 }
 
 /// Walks down from every root: what is not reached is on a cycle. Not recursive: a chain of nodes
 /// may be as long as the file.
-core::Result<void> checkForest(const std::vector<GltfNode>& nodes) {
+core::Result<void> checkForest(const std::vector<GltfNode>& nodes, GltfProblems& problems) {
     struct Visit {
         int node;
         int depth;
@@ -158,10 +161,11 @@ core::Result<void> checkForest(const std::vector<GltfNode>& nodes) {
             open.push_back({child, visit.depth + 1, world});
         }
     }
-    const auto lost = std::find(reached.begin(), reached.end(), false);
-    if (lost != reached.end()) {
-        return core::refused("node is its own ancestor (a cycle)",
-                             pointer("/nodes", static_cast<std::size_t>(lost - reached.begin())));
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (!reached[i]) {
+            problems.refuse("node is its own ancestor or hangs on one that is (a cycle)",
+                            pointer("/nodes", i));
+        }
     }
     return {};
 }
@@ -172,12 +176,12 @@ core::Result<void> convertNodes(GltfContext& context) {
     for (std::size_t i = 0; i < context.model.nodes.size(); ++i) {
         core::Result<GltfNode> node = readNode(context, i);
         if (!node) {
-            return node.error();
+            context.problems.refuse(node.error());
         }
-        context.file.nodes.push_back(std::move(*node));
+        context.file.nodes.push_back(node ? std::move(*node) : GltfNode());
     }
-    core::Result<void> linked = linkParents(context.file.nodes);
-    return linked ? checkForest(context.file.nodes) : linked;
+    linkParents(context.file.nodes, context.problems);
+    return checkForest(context.file.nodes, context.problems);
 }
 
 core::Result<void> convertScenes(GltfContext& context) {
@@ -190,10 +194,10 @@ core::Result<void> convertScenes(GltfContext& context) {
             const auto node = static_cast<std::size_t>(source.nodes[r]);
             const std::string at = pointer(pointer("/scenes", i) + "/nodes", r);
             if (context.file.nodes[node].parent != kNone) {
-                return core::refused("scene's node has a parent; it must be a root", at);
+                context.problems.refuse("scene's node has a parent; it must be a root", at);
             }
             if (usedBy[node] == i) {
-                return core::refused("scene names a node twice", at);
+                context.problems.refuse("scene names a node twice", at);
             }
             usedBy[node] = i;
             scene.roots.push_back(source.nodes[r]);

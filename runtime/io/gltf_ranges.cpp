@@ -59,97 +59,138 @@ bool fits(std::size_t count, std::size_t stride, std::size_t bytes, std::size_t 
     return bytes <= available && count - 1 <= (available - bytes) / stride;
 }
 
-core::Result<void> checkView(const Json& view, const std::vector<Bytes>& buffers,
-                             const std::string& at) {
+void checkView(const Json& view, const std::vector<Bytes>& buffers, const std::string& at,
+               GltfProblems& problems) {
     std::size_t left = 0;
     const Bytes& buffer = buffers[view["buffer"].get<std::size_t>()];
     if (!remaining(buffer.size(), sizeMember(view, "byteOffset"), left) ||
         sizeMember(view, "byteLength") > left) {
-        return core::refused("buffer view ends behind its buffer of " +
-                                 std::to_string(buffer.size()) + " bytes",
-                             at + "/byteLength");
+        problems.refuse("buffer view ends behind its buffer of " + std::to_string(buffer.size()) +
+                            " bytes",
+                        at + "/byteLength");
     }
     const std::size_t stride = sizeMember(view, "byteStride");
     if (stride % 4 != 0) {
-        return core::refused("byteStride " + std::to_string(stride) + " is no multiple of 4",
-                             at + "/byteStride");
+        problems.refuse("byteStride " + std::to_string(stride) + " is no multiple of 4",
+                        at + "/byteStride");
     }
-    return {};
 }
 
-core::Result<void> checkSparse(const Json& accessor, const ElementLayout& layout, const Json& views,
-                               const std::string& at) {
-    const Json& sparse = accessor["sparse"];
-    const std::size_t count = sizeMember(sparse, "count");
-    if (count > sizeMember(accessor, "count")) {
-        return core::refused("more sparse values than the accessor has elements",
-                             at + "/sparse/count");
-    }
-    const int indexType = sparse["indices"]["componentType"].get<int>();
-    ElementLayout index;
-    if ((indexType != 5121 && indexType != 5123 && indexType != 5125) ||
-        !elementLayout(indexType, "SCALAR", index)) {
-        return core::refused("componentType " + std::to_string(indexType) +
-                                 " is no unsigned integer (5121, 5123, 5125)",
-                             at + "/sparse/indices/componentType");
-    }
-    const auto inView = [&](const char* part, std::size_t bytes) {
-        const Json& view = views[sparse[part]["bufferView"].get<std::size_t>()];
-        std::size_t left = 0;
-        return remaining(sizeMember(view, "byteLength"), sizeMember(sparse[part], "byteOffset"),
-                         left) &&
-               fits(count, bytes, bytes, left);
-    };
-    if (!inView("indices", index.bytes)) {
-        return core::refused("sparse indices end behind their buffer view", at + "/sparse/indices");
-    }
-    if (!inView("values", layout.bytes)) {
-        return core::refused("sparse values end behind their buffer view", at + "/sparse/values");
-    }
-    return {};
-}
+/// Accessors beside their views.
+class AccessorRanges {
+public:
+    AccessorRanges(const Json& document, GltfProblems& problems)
+        : document_(document), problems_(problems) {}
 
-core::Result<void> checkAccessor(const Json& accessor, const Json& views, const std::string& at) {
-    ElementLayout layout;
-    const int componentType = accessor["componentType"].get<int>();
-    const std::string type = accessor["type"].get<std::string>();
-    if (!elementLayout(5126, type, layout)) {
-        return core::refused("accessor type '" + type.substr(0, 32) + "' does not exist",
+    void check(std::size_t index) {
+        const Json& accessor = document_["accessors"][index];
+        const std::string at = pointer("/accessors", index);
+        ElementLayout layout;
+        const int componentType = accessor["componentType"].get<int>();
+        const std::string type = accessor["type"].get<std::string>();
+        if (!elementLayout(5126, type, layout)) {
+            problems_.refuse("accessor type '" + type.substr(0, 32) + "' does not exist",
                              at + "/type");
-    }
-    if (!elementLayout(componentType, type, layout)) {
-        return core::refused("componentType " + std::to_string(componentType) +
+            return;
+        }
+        if (!elementLayout(componentType, type, layout)) {
+            problems_.refuse("componentType " + std::to_string(componentType) +
                                  " is none of 5120, 5121, 5122, 5123, 5125, 5126",
                              at + "/componentType");
-    }
-    const std::size_t count = sizeMember(accessor, "count");
-    const Json* viewIndex = member(accessor, "bufferView");
-    if (viewIndex == nullptr) {
-        if (count > kMaxZeroElements) {
-            return core::refused("accessor without data of " + std::to_string(count) +
-                                     " elements; the limit is " + std::to_string(kMaxZeroElements),
-                                 at + "/count");
+            return;
         }
-    } else {
-        const Json& view = views[viewIndex->get<std::size_t>()];
+        const std::size_t count = sizeMember(accessor, "count");
+        if (member(accessor, "bufferView") == nullptr && count > kMaxZeroElements) {
+            problems_.refuse("accessor without data of " + std::to_string(count) +
+                                 " elements; the limit is " + std::to_string(kMaxZeroElements),
+                             at + "/count");
+        }
+        if (const Json* view = viewOf(accessor, at)) {
+            checkInView(accessor, *view, layout, at);
+        }
+        if (member(accessor, "sparse") != nullptr) {
+            checkSparse(accessor, layout, at);
+        }
+    }
+
+private:
+    /// The view that a part names; null where it names none or one that was refused.
+    const Json* viewOf(const Json& part, const std::string& at) {
+        const Json* index = member(part, "bufferView");
+        if (index == nullptr) {
+            return nullptr;
+        }
+        const auto i = index->get<std::size_t>();
+        if (!problems_.clean(pointer("/bufferViews", i))) {
+            problems_.taint(at);
+            return nullptr;
+        }
+        return &document_["bufferViews"][i];
+    }
+
+    void checkInView(const Json& accessor, const Json& view, const ElementLayout& layout,
+                     const std::string& at) {
         const std::size_t given = sizeMember(view, "byteStride");
+        const std::size_t count = sizeMember(accessor, "count");
         if (given != 0 && given < layout.bytes) {
-            return core::refused("elements of " + std::to_string(layout.bytes) +
-                                     " bytes do not fit a byteStride of " + std::to_string(given),
-                                 at);
+            problems_.refuse("elements of " + std::to_string(layout.bytes) +
+                                 " bytes do not fit a byteStride of " + std::to_string(given),
+                             at);
         }
         std::size_t left = 0;
         if (!remaining(sizeMember(view, "byteLength"), sizeMember(accessor, "byteOffset"), left) ||
             !fits(count, given == 0 ? layout.bytes : given, layout.bytes, left)) {
-            return core::refused(std::to_string(count) + " elements end behind their buffer view",
-                                 at + "/count");
+            problems_.refuse(std::to_string(count) + " elements end behind their buffer view",
+                             at + "/count");
         }
     }
-    return member(accessor, "sparse") == nullptr ? core::Result<void>()
-                                                 : checkSparse(accessor, layout, views, at);
-}
+
+    void checkSparse(const Json& accessor, const ElementLayout& layout, const std::string& at) {
+        const Json& sparse = accessor["sparse"];
+        const std::size_t count = sizeMember(sparse, "count");
+        if (count > sizeMember(accessor, "count")) {
+            problems_.refuse("more sparse values than the accessor has elements",
+                             at + "/sparse/count");
+        }
+        const int indexType = sparse["indices"]["componentType"].get<int>();
+        ElementLayout index;
+        if ((indexType != 5121 && indexType != 5123 && indexType != 5125) ||
+            !elementLayout(indexType, "SCALAR", index)) {
+            problems_.refuse("componentType " + std::to_string(indexType) +
+                                 " is no unsigned integer (5121, 5123, 5125)",
+                             at + "/sparse/indices/componentType");
+            return;
+        }
+        for (const char* part : {"indices", "values"}) {
+            const Json* view = viewOf(sparse[part], at);
+            const std::size_t bytes =
+                part == std::string_view("indices") ? index.bytes : layout.bytes;
+            std::size_t left = 0;
+            if (view != nullptr && !(remaining(sizeMember(*view, "byteLength"),
+                                               sizeMember(sparse[part], "byteOffset"), left) &&
+                                     fits(count, bytes, bytes, left))) {
+                problems_.refuse(std::string("sparse ") + part + " end behind their buffer view",
+                                 at + "/sparse/" + part);
+            }
+        }
+    }
+
+    const Json& document_;
+    GltfProblems& problems_;
+};
 
 } // namespace
+
+void checkRequired(const Json& document, GltfProblems& problems) {
+    for (std::size_t i = 0; i < memberSize(document, "extensionsRequired"); ++i) {
+        const Json& name = document["extensionsRequired"][i];
+        if (name.is_string() && !isSupportedExtension(name.get<std::string>())) {
+            problems.refuse("requires the extension " + name.get<std::string>().substr(0, 128) +
+                                ", which is not read",
+                            pointer("/extensionsRequired", i));
+        }
+    }
+}
 
 core::Result<void> checkAsset(const Json& document) {
     const Json* asset = member(document, "asset");
@@ -170,14 +211,6 @@ core::Result<void> checkAsset(const Json& document) {
             return core::refused("minVersion is " + least->dump().substr(0, 32) +
                                      "; version 2.0 is read",
                                  "/asset/minVersion");
-        }
-    }
-    for (std::size_t i = 0; i < memberSize(document, "extensionsRequired"); ++i) {
-        const Json& name = document["extensionsRequired"][i];
-        if (name.is_string() && !isSupportedExtension(name.get<std::string>())) {
-            return core::refused("requires the extension " +
-                                     name.get<std::string>().substr(0, 128) + ", which is not read",
-                                 pointer("/extensionsRequired", i));
         }
     }
     return {};
@@ -222,24 +255,25 @@ bool elementLayout(int componentType, const std::string& type, ElementLayout& la
     return true;
 }
 
-core::Result<void> checkRanges(const Json& document, const std::vector<Bytes>& buffers) {
-    const Json empty = Json::array();
-    const Json* views = member(document, "bufferViews");
-    views = views == nullptr ? &empty : views;
-    for (std::size_t i = 0; i < views->size(); ++i) {
-        core::Result<void> checked = checkView((*views)[i], buffers, pointer("/bufferViews", i));
-        if (!checked) {
-            return checked;
+void checkRanges(const Json& document, const std::vector<Bytes>& buffers, GltfProblems& problems) {
+    for (std::size_t i = 0; i < memberSize(document, "bufferViews"); ++i) {
+        const std::string at = pointer("/bufferViews", i);
+        if (!problems.clean(at)) {
+            continue;
+        }
+        const Json& view = document["bufferViews"][i];
+        if (problems.clean(pointer("/buffers", view["buffer"].get<std::size_t>()))) {
+            checkView(view, buffers, at, problems);
+        } else {
+            problems.taint(at);
         }
     }
+    AccessorRanges accessors(document, problems);
     for (std::size_t i = 0; i < memberSize(document, "accessors"); ++i) {
-        core::Result<void> checked =
-            checkAccessor(document["accessors"][i], *views, pointer("/accessors", i));
-        if (!checked) {
-            return checked;
+        if (problems.clean(pointer("/accessors", i))) {
+            accessors.check(i);
         }
     }
-    return {};
 }
 
 } // namespace detail

@@ -177,125 +177,127 @@ constexpr Field kLightsExtension[] = {object("KHR_lights_punctual", kLights)};
 constexpr Field kStrength[] = {number("emissiveStrength")};
 constexpr Field kMaterialExtension[] = {object("KHR_materials_emissive_strength", kStrength)};
 
-/// Walks a document beside its tables. Recursion is as deep as the tables are: 6.
+/// Walks a document beside its tables and goes on behind what is wrong. Recursion is as deep as the
+/// tables are: 6.
 class Checker {
 public:
-    explicit Checker(const Json& document) : document_(document) {}
+    Checker(const Json& document, GltfProblems& problems)
+        : document_(document), problems_(problems) {}
 
-    core::Result<void> fields(const Json& value, std::span<const Field> table,
-                              const std::string& at) {
+    void fields(const Json& value, std::span<const Field> table, const std::string& at) {
         if (!value.is_object()) {
-            return core::refused("must be an object", at);
+            problems_.refuse("must be an object", at);
+            return;
         }
         for (const Field& field : table) {
             const Json* found = member(value, field.key);
-            if (found == nullptr) {
-                if (field.required) {
-                    return core::refused(std::string("'") + field.key + "' is missing",
-                                         at.empty() ? "/" : at);
-                }
-                continue;
-            }
-            core::Result<void> checked = one(*found, field, at + "/" + field.key);
-            if (!checked) {
-                return checked;
+            if (found != nullptr) {
+                one(*found, field, at + "/" + field.key);
+            } else if (field.required) {
+                problems_.refuse(std::string("'") + field.key + "' is missing",
+                                 at.empty() ? "/" : at);
             }
         }
-        return {};
     }
 
-    core::Result<void> reference(const Json& value, const std::string& at, std::size_t size,
-                                 const std::string& array) {
+    void reference(const Json& value, const std::string& at, std::size_t size,
+                   const std::string& array) {
         if (!value.is_number_integer()) {
-            return core::refused("must be an index (an integer)", at);
+            problems_.refuse("must be an index (an integer)", at);
+        } else if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= size) {
+            problems_.refuse("index " + value.dump() + " points at nothing: there are " +
+                                 std::to_string(size) + " " + array,
+                             at);
         }
-        const bool inside = value.is_number_unsigned() && value.get<std::uint64_t>() < size;
-        if (!inside) {
-            return core::refused("index " + value.dump() + " points at nothing: there are " +
-                                     std::to_string(size) + " " + array,
-                                 at);
+    }
+
+    /// An object of indices.
+    void map(const Json& value, const std::string& array, const std::string& at) {
+        if (!value.is_object()) {
+            problems_.refuse("must be an object", at);
+            return;
         }
-        return {};
+        const std::size_t size = memberSize(document_, array.c_str());
+        for (const auto& [key, entry] : value.items()) {
+            reference(entry, at + "/" + key, size, array);
+        }
     }
 
 private:
-    core::Result<void> one(const Json& value, const Field& field, const std::string& at) {
+    void one(const Json& value, const Field& field, const std::string& at) {
         switch (field.kind) {
         case Kind::Text:
-            return value.is_string() ? core::Result<void>() : core::refused("must be a text", at);
+            require(value.is_string(), "must be a text", at);
+            break;
         case Kind::Boolean:
-            return value.is_boolean() ? core::Result<void>()
-                                      : core::refused("must be true or false", at);
+            require(value.is_boolean(), "must be true or false", at);
+            break;
         case Kind::Number:
-            return number(value, at);
+            number(value, at);
+            break;
         case Kind::Integer:
-            return integer(value, field, at);
+            integer(value, field, at);
+            break;
         case Kind::LooseReference:
-            return integer(value, {"", Kind::Integer, false, -kIntMax, kIntMax}, at);
+            integer(value, {"", Kind::Integer, false, -kIntMax, kIntMax}, at);
+            break;
         case Kind::Reference:
-            return reference(value, at, memberSize(document_, field.refers), field.refers);
+            reference(value, at, memberSize(document_, field.refers), field.refers);
+            break;
         case Kind::Object:
-            return fields(value, field.fields, at);
+            fields(value, field.fields, at);
+            break;
         case Kind::ReferenceMap:
-            return map(value, field, at);
+            map(value, field.refers, at);
+            break;
         case Kind::Numbers:
         case Kind::References:
         case Kind::Texts:
         case Kind::Objects:
+            array(value, field, at);
             break;
         }
-        return array(value, field, at);
     }
 
-    static core::Result<void> number(const Json& value, const std::string& at) {
+    void require(bool good, const char* rule, const std::string& at) {
+        if (!good) {
+            problems_.refuse(rule, at);
+        }
+    }
+
+    void number(const Json& value, const std::string& at) {
         if (!value.is_number()) {
-            return core::refused("must be a number", at);
+            problems_.refuse("must be a number", at);
+        } else if (!(std::abs(value.get<double>()) <= kFloatMax)) {
+            problems_.refuse("number is too large for single precision", at);
         }
-        if (!(std::abs(value.get<double>()) <= kFloatMax)) {
-            return core::refused("number is too large for single precision", at);
-        }
-        return {};
     }
 
-    static core::Result<void> integer(const Json& value, const Field& field,
-                                      const std::string& at) {
+    void integer(const Json& value, const Field& field, const std::string& at) {
         if (!value.is_number_integer()) {
             const bool large = value.is_number() && std::abs(value.get<double>()) > kSizeMax;
-            return core::refused(
+            problems_.refuse(
                 large ? "is out of range: no integer is that large" : "must be an integer", at);
+            return;
         }
         const double v = value.get<double>();
         if (!(v >= field.low && v <= field.high)) {
-            return core::refused(value.dump() + " is out of range [" +
-                                     std::to_string(static_cast<std::int64_t>(field.low)) + ", " +
-                                     std::to_string(static_cast<std::int64_t>(field.high)) + "]",
-                                 at);
+            problems_.refuse(value.dump() + " is out of range [" +
+                                 std::to_string(static_cast<std::int64_t>(field.low)) + ", " +
+                                 std::to_string(static_cast<std::int64_t>(field.high)) + "]",
+                             at);
         }
-        return {};
     }
 
-    core::Result<void> map(const Json& value, const Field& field, const std::string& at) {
-        if (!value.is_object()) {
-            return core::refused("must be an object", at);
-        }
-        const std::size_t size = memberSize(document_, field.refers);
-        for (const auto& [key, entry] : value.items()) {
-            core::Result<void> checked = reference(entry, at + "/" + key, size, field.refers);
-            if (!checked) {
-                return checked;
-            }
-        }
-        return {};
-    }
-
-    core::Result<void> array(const Json& value, const Field& field, const std::string& at) {
+    void array(const Json& value, const Field& field, const std::string& at) {
         if (!value.is_array()) {
-            return core::refused("must be an array", at);
+            problems_.refuse("must be an array", at);
+            return;
         }
         if (field.count != 0 && value.size() != field.count) {
-            return core::refused("must hold " + std::to_string(field.count) + " numbers, not " +
-                                     std::to_string(value.size()),
-                                 at);
+            problems_.refuse("must hold " + std::to_string(field.count) + " numbers, not " +
+                                 std::to_string(value.size()),
+                             at);
         }
         Field element = field;
         element.kind = field.kind == Kind::Numbers      ? Kind::Number
@@ -303,25 +305,19 @@ private:
                        : field.kind == Kind::Texts      ? Kind::Text
                                                         : Kind::Object;
         for (std::size_t i = 0; i < value.size(); ++i) {
-            core::Result<void> checked = one(value[i], element, pointer(at, i));
-            if (!checked) {
-                return checked;
-            }
+            one(value[i], element, pointer(at, i));
         }
-        return {};
     }
 
     const Json& document_;
+    GltfProblems& problems_;
 };
 
-core::Result<void> checkExtensions(const Json& document, Checker& checker) {
-    if (const Json* extensions = member(document, "extensions")) {
-        core::Result<void> checked = checker.fields(*extensions, kLightsExtension, "/extensions");
-        if (!checked) {
-            return checked;
-        }
-    }
+void checkExtensions(const Json& document, Checker& checker) {
     const Json* extensions = member(document, "extensions");
+    if (extensions != nullptr) {
+        checker.fields(*extensions, kLightsExtension, "/extensions");
+    }
     const Json* lights =
         extensions == nullptr ? nullptr : member(*extensions, "KHR_lights_punctual");
     const std::size_t lightCount = lights == nullptr ? 0 : memberSize(*lights, "lights");
@@ -330,67 +326,45 @@ core::Result<void> checkExtensions(const Json& document, Checker& checker) {
         const Json* punctual = own == nullptr ? nullptr : member(*own, "KHR_lights_punctual");
         const Json* light = punctual == nullptr ? nullptr : member(*punctual, "light");
         if (light != nullptr) {
-            core::Result<void> checked = checker.reference(
-                *light, pointer("/nodes", i) + "/extensions/KHR_lights_punctual/light", lightCount,
-                "lights");
-            if (!checked) {
-                return checked;
-            }
+            checker.reference(*light,
+                              pointer("/nodes", i) + "/extensions/KHR_lights_punctual/light",
+                              lightCount, "lights");
         }
     }
     for (std::size_t i = 0; i < memberSize(document, "materials"); ++i) {
         if (const Json* own = member(document["materials"][i], "extensions")) {
-            core::Result<void> checked =
-                checker.fields(*own, kMaterialExtension, pointer("/materials", i) + "/extensions");
-            if (!checked) {
-                return checked;
-            }
+            checker.fields(*own, kMaterialExtension, pointer("/materials", i) + "/extensions");
         }
     }
-    return {};
 }
 
 /// Channels name a sampler of their own animation.
-core::Result<void> checkChannels(const Json& document, Checker& checker) {
+void checkChannels(const Json& document, Checker& checker) {
     for (std::size_t i = 0; i < memberSize(document, "animations"); ++i) {
         const Json& animation = document["animations"][i];
-        const std::size_t samplers = animation["samplers"].size();
+        const std::size_t samplers = memberSize(animation, "samplers");
         const std::string at = pointer("/animations", i) + "/channels";
-        for (std::size_t c = 0; c < animation["channels"].size(); ++c) {
-            core::Result<void> checked =
-                checker.reference(animation["channels"][c]["sampler"], pointer(at, c) + "/sampler",
-                                  samplers, "samplers");
-            if (!checked) {
-                return checked;
+        for (std::size_t c = 0; c < memberSize(animation, "channels"); ++c) {
+            const Json* sampler = member(animation["channels"][c], "sampler");
+            if (sampler != nullptr && sampler->is_number_unsigned()) {
+                checker.reference(*sampler, pointer(at, c) + "/sampler", samplers, "samplers");
             }
         }
     }
-    return {};
 }
 
-/// Morph targets are not applied, but what they name must exist.
-core::Result<void> checkTargets(const Json& document, Checker& checker) {
-    const std::size_t accessors = memberSize(document, "accessors");
+/// What morph targets name must exist.
+void checkTargets(const Json& document, Checker& checker) {
     for (std::size_t m = 0; m < memberSize(document, "meshes"); ++m) {
-        const Json& primitives = document["meshes"][m]["primitives"];
-        for (std::size_t p = 0; p < primitives.size(); ++p) {
+        const Json& mesh = document["meshes"][m];
+        for (std::size_t p = 0; p < memberSize(mesh, "primitives"); ++p) {
+            const Json& primitive = mesh["primitives"][p];
             const std::string at = pointer(pointer("/meshes", m) + "/primitives", p) + "/targets";
-            for (std::size_t t = 0; t < memberSize(primitives[p], "targets"); ++t) {
-                const Json& target = primitives[p]["targets"][t];
-                if (!target.is_object()) {
-                    return core::refused("must be an object", pointer(at, t));
-                }
-                for (const auto& [key, entry] : target.items()) {
-                    core::Result<void> checked = checker.reference(
-                        entry, pointer(at, t) + "/" + key, accessors, "accessors");
-                    if (!checked) {
-                        return checked;
-                    }
-                }
+            for (std::size_t t = 0; t < memberSize(primitive, "targets"); ++t) {
+                checker.map(primitive["targets"][t], "accessors", pointer(at, t));
             }
         }
     }
-    return {};
 }
 
 Json known(const Json& value, std::span<const Field> table) {
@@ -417,28 +391,30 @@ Json known(const Json& value, std::span<const Field> table) {
 
 } // namespace
 
-core::Result<void> checkSchema(const Json& document) {
+bool checkSchema(const Json& document, GltfProblems& problems) {
     if (memberSize(document, "nodes") > kMaxNodes) {
-        return core::refused("there are " + std::to_string(document["nodes"].size()) +
-                                 " nodes; the limit is " + std::to_string(kMaxNodes),
-                             "/nodes");
+        problems.refuse("there are " + std::to_string(document["nodes"].size()) +
+                            " nodes; the limit is " + std::to_string(kMaxNodes),
+                        "/nodes");
     }
     // Before anything that points into them: else the pointer's end would be blamed.
+    bool arrays = problems.clean("/nodes");
     for (const Field& field : kDocument) {
         const Json* found = member(document, field.key);
         if (field.kind == Kind::Objects && found != nullptr && !found->is_array()) {
-            return core::refused("must be an array", std::string("/") + field.key);
+            problems.refuse("must be an array", std::string("/") + field.key);
+            arrays = false;
         }
     }
-    Checker checker(document);
-    core::Result<void> checked = checker.fields(document, kDocument, "");
-    for (const auto check : {checkExtensions, checkChannels, checkTargets}) {
-        if (!checked) {
-            break;
-        }
-        checked = check(document, checker);
+    if (!arrays) {
+        return false;
     }
-    return checked;
+    Checker checker(document, problems);
+    checker.fields(document, kDocument, "");
+    checkExtensions(document, checker);
+    checkChannels(document, checker);
+    checkTargets(document, checker);
+    return true;
 }
 
 Json knownKeys(const Json& document) {

@@ -152,25 +152,30 @@ core::Result<Bytes> SideFiles::read(const std::string& uri, std::size_t maxBytes
     return root_.read(prefix_ + path, maxBytes);
 }
 
-core::Result<std::vector<Bytes>> loadBuffers(GltfSource& source, const SideFiles& files) {
-    std::vector<Bytes> buffers;
+std::vector<Bytes> loadBuffers(GltfSource& source, const SideFiles& files, GltfProblems& problems) {
+    std::vector<Bytes> buffers(memberSize(source.document, "buffers"));
     std::size_t left = kMaxBufferBytes;
-    for (std::size_t i = 0; i < memberSize(source.document, "buffers"); ++i) {
-        const Json& buffer = source.document["buffers"][i];
+    for (std::size_t i = 0; i < buffers.size(); ++i) {
         const std::string at = pointer("/buffers", i);
+        if (!problems.clean(at)) {
+            continue;
+        }
+        const Json& buffer = source.document["buffers"][i];
         core::Result<Bytes> bytes = loadBuffer(buffer, source, i == 0, files, left, at);
         if (!bytes) {
-            return bytes.error();
+            problems.refuse(bytes.error());
+            continue;
         }
         left -= std::min(left, bytes->size());
         const auto length = buffer["byteLength"].get<std::size_t>();
         if (bytes->size() < length) {
-            return core::refused("buffer should hold " + std::to_string(length) +
-                                     " bytes but has " + std::to_string(bytes->size()),
-                                 at + "/byteLength");
+            problems.refuse("buffer should hold " + std::to_string(length) + " bytes but has " +
+                                std::to_string(bytes->size()),
+                            at + "/byteLength");
+            continue;
         }
         bytes->resize(length);
-        buffers.push_back(std::move(*bytes));
+        buffers[i] = std::move(*bytes);
     }
     return buffers;
 }

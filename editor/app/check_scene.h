@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "io/gltf.h"
+
+namespace lodestar::app {
+
+/// Adds what a scene holds; the keys are a contract (docs/command-line.md).
+void describeScene(const io::GltfFile& scene, nlohmann::ordered_json& json);
+
+} // namespace lodestar::app

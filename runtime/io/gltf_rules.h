@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+//
+// What the files of checkRules share.
+#pragma once
+
+#include <limits>
+
+#include "io/gltf_internal.h"
+
+namespace lodestar::io::detail {
+
+/// How far from 1 the length of a vector of 3 or of 4 may lie: what quantisation to 8 bits leaves,
+/// as in Khronos' validator.
+inline constexpr double kUnitTolerance3 = 0.00674;
+inline constexpr double kUnitTolerance4 = 0.00769;
+
+/// Calls act(element, its pointer) for the elements of an array that stand unrefused.
+template <class Act>
+void eachClean(const Json& document, const char* array, const GltfProblems& problems, Act act) {
+    for (std::size_t i = 0; i < memberSize(document, array); ++i) {
+        const std::string at = pointer(std::string("/") + array, i);
+        if (problems.clean(at)) {
+            act(document[array][i], at);
+        }
+    }
+}
+
+/// Names, formats and alignment of what primitives use, and what views are used for.
+void checkMeshRules(const Json& document, GltfProblems& problems);
+/// The numbers in accessors: finite, within their min and max, unit normals.
+void checkDataRules(const Json& document, const std::vector<Bytes>& buffers,
+                    GltfProblems& problems);
+
+} // namespace lodestar::io::detail
