@@ -108,8 +108,8 @@ core::Result<Json> checkScene(const std::string& file) {
     json["images"] = scene->images.size();
     json["cameras"] = scene->cameras.size();
     json["lights"] = scene->lights.size();
-    json["animations"] = scene->animationCount;
-    json["skins"] = scene->skinCount;
+    json["animations"] = scene->animations.size();
+    json["skins"] = scene->skins.size();
     json["extensionsUsed"] = extensionsJson(scene->extensionsUsed);
     json["extensionsRequired"] = extensionsJson(scene->extensionsRequired);
     json["warnings"] = warningsJson(scene->warnings);

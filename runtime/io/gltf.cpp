@@ -36,12 +36,10 @@ core::Result<GltfFile> convert(const Json& document, const tinygltf::Model& mode
     GltfFile file;
     GltfContext context{document, model, file};
     listExtensions(context);
-    file.animationCount = static_cast<int>(memberSize(document, "animations"));
-    file.skinCount = static_cast<int>(memberSize(document, "skins"));
     convertTextures(context);
     convertLights(context);
-    for (const auto step :
-         {convertMaterials, convertCameras, convertNodes, convertScenes, convertMeshes}) {
+    for (const auto step : {convertMaterials, convertCameras, convertNodes, convertScenes,
+                            convertMeshes, convertSkins, convertAnimations}) {
         core::Result<void> done = step(context);
         if (!done) {
             return done.error();

@@ -368,7 +368,7 @@ core::Result<void> checkChannels(const Json& document, Checker& checker) {
     return {};
 }
 
-/// Morph targets are not applied, but what they name must exist.
+/// What morph targets name must exist.
 core::Result<void> checkTargets(const Json& document, Checker& checker) {
     const std::size_t accessors = memberSize(document, "accessors");
     for (std::size_t m = 0; m < memberSize(document, "meshes"); ++m) {
