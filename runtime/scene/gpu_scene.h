@@ -17,8 +17,15 @@
 namespace lodestar::scene {
 
 struct GpuPrimitive {
+    /// An attribute that a buffer of the list holds.
+    struct Stored {
+        gl::Attribute attribute;
+        std::size_t buffer;
+        int components;
+    };
     gl::VertexArray vertices;
-    std::vector<gl::Buffer> buffers;
+    std::vector<Stored> attributes;
+    std::vector<gl::Buffer> buffers; ///< the indices last
     gl::DrawMode mode = gl::DrawMode::Triangles;
     int indexCount = 0;
 };
@@ -34,12 +41,19 @@ enum TextureUnit : int {
     kMaterialUnitCount,
     kEnvironmentUnit = kMaterialUnitCount,
     kIrradianceUnit,
+    kJointUnit,
 };
 
 /// The names of the samplers, by unit.
-inline constexpr std::array<const char*, 8> kSamplerNames = {
-    "uBaseColorTexture", "uMetallicRoughnessTexture", "uNormalTexture", "uOcclusionTexture",
-    "uEmissiveTexture",  "uExponentTexture",          "uEnvironment",   "uIrradiance"};
+inline constexpr std::array<const char*, 9> kSamplerNames = {"uBaseColorTexture",
+                                                             "uMetallicRoughnessTexture",
+                                                             "uNormalTexture",
+                                                             "uOcclusionTexture",
+                                                             "uEmissiveTexture",
+                                                             "uExponentTexture",
+                                                             "uEnvironment",
+                                                             "uIrradiance",
+                                                             "uJoints"};
 
 class GpuScene {
 public:
