@@ -65,6 +65,9 @@ void main() {
     vPosition = world.xyz;
 #if LODESTAR_NORMALS
     vNormal = worldFromNormal * aNormal;
+#if LODESTAR_SKINNING
+    vNormal = lodestar_safeNormalize(vNormal, vec3(0.0)); // its length differs from vertex to vertex
+#endif
 #else
     vNormal = vec3(0.0);
 #endif
