@@ -120,8 +120,8 @@ void describeScene(const io::GltfFile& scene, Json& json) {
     json["cameraNames"] = names(scene.cameras);
     json["lights"] = scene.lights.size();
     json["lightNames"] = names(scene.lights);
-    json["animations"] = scene.animationCount;
-    json["skins"] = scene.skinCount;
+    json["animations"] = scene.animations.size();
+    json["skins"] = scene.skins.size();
     json["bufferBytes"] = scene.bufferBytes;
     json["boundingBox"] = boundsJson(scene);
     json["extensionsUsed"] = extensionsJson(scene.extensionsUsed);

@@ -24,6 +24,7 @@ struct RenderOptions {
     double exposure = 0.0; ///< EV
     int samples = 0;       ///< a pixel; 0: 4 for PNG, 1 for EXR
     int frames = 1;
+    double fps = 0.0; ///< 0: not given, all frames show one time
 };
 
 enum class OutputKind { Png, Exr };
@@ -104,6 +105,12 @@ core::Result<void> renderAll(const RenderOptions& options, OutputKind kind, Load
     std::vector<scene::Frame> frames;
     const bool sequence = options.output.find("%04d") != std::string::npos;
     for (int i = 0; i < options.frames; ++i) {
+        if (options.fps > 0.0) {
+            const double seconds = options.scene.time.value_or(0.0) + i / options.fps;
+            if (auto posed = loaded.poseAt(seconds); !posed) {
+                return posed;
+            }
+        }
         auto frame = (*renderer)->render(loaded.view, loaded.settings);
         if (!frame) {
             return frame.error();
@@ -140,7 +147,11 @@ int runRender(const RenderOptions& options) {
     if (!std::isfinite(options.exposure) || std::abs(options.exposure) > 64.0) {
         return fail(usage("an exposure is a number of stops within +-64", "--exposure"));
     }
-    auto loaded = load(options.scene);
+    SceneOptions asked = options.scene;
+    if (options.fps > 0.0 && asked.animation.empty()) {
+        asked.animation = "0";
+    }
+    auto loaded = load(asked);
     if (!loaded) {
         return fail(loaded.error());
     }
@@ -177,6 +188,10 @@ void addRender(CLI::App& app, int& status) {
                      "Frames drawn in one process; with %04d in OUT each is kept, else the last")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
+    command
+        ->add_option("--fps", options->fps,
+                     "Frame I shows the animation (default: the first) at --time + I/FPS seconds")
+        ->check(CLI::Range(1e-3, 1e6));
     command->add_option("--stats", options->stats, "Write the plan, counters and times as JSON");
     command->footer(
         "Example: a model in a studio, one stop brighter\n"

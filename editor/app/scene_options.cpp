@@ -213,6 +213,12 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("--eye", options.eye, "Viewpoint X,Y,Z in metres");
     command.add_option("--target", options.target, "Point looked at, X,Y,Z in metres");
     command.add_option("--fov", options.fovDegrees, "Vertical field of view in degrees");
+    command.add_option(
+        "--animation", options.animation,
+        "An animation of the scene, by name or number, at --time or its start.\n"
+        "Without --animation, --time (and render's --fps): the scene as in the file");
+    command.add_option("--time", options.time,
+                       "Seconds into the animation (default the first); its ends hold outside it");
     command.add_option("--size", options.size, "Picture size WxH")->capture_default_str();
     command.add_option(
         "--specular", options.specular,
@@ -252,14 +258,34 @@ core::Result<LoadedScene> load(const SceneOptions& options) {
         return lit.error();
     }
     loaded.scene = scene::buildScene(std::move(*file), *sceneIndex);
-    const float aspect =
-        static_cast<float>(loaded.settings.width) / static_cast<float>(loaded.settings.height);
-    auto view = scene::chooseView(loaded.scene, *request, aspect);
-    if (!view) {
-        return core::inFile(view.error(), options.scene);
+    loaded.camera = *request;
+    if (options.time && !std::isfinite(*options.time)) {
+        return usage("a time is a number of seconds", "--time");
     }
-    loaded.view = *view;
+    if (!options.animation.empty() || options.time) {
+        auto animation =
+            scene::findAnimation(loaded.scene, options.animation.empty() ? "0" : options.animation);
+        if (!animation) {
+            return core::inFile(animation.error(), options.scene);
+        }
+        loaded.animation = *animation;
+        scene::reachOver(loaded.scene, loaded.animation);
+    }
+    if (auto posed = loaded.poseAt(options.time.value_or(0.0)); !posed) {
+        return core::inFile(posed.error(), options.scene);
+    }
     return loaded;
+}
+
+core::Result<void> LoadedScene::poseAt(double seconds) {
+    scene::pose(scene, animation, seconds);
+    const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
+    auto chosen = scene::chooseView(scene, camera, aspect);
+    if (!chosen) {
+        return chosen.error();
+    }
+    view = *chosen;
+    return {};
 }
 
 } // namespace lodestar::app

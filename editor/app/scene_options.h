@@ -3,11 +3,13 @@
 // The options that `render` and `plan` share: scene, environment, camera, estimators.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
 #include "io/environment_file.h"
+#include "scene/animation.h"
 #include "scene/camera.h"
 #include "scene/renderer.h"
 
@@ -23,6 +25,8 @@ struct SceneOptions {
     std::string eye, target;
     double fovDegrees = 0.0; ///< 0: not given
     std::string size = "960x640";
+    std::string animation;      ///< name or number; empty: the first, if a time is given
+    std::optional<double> time; ///< seconds
     std::string specular, diffuse;
     std::string materialOverride;
     bool noBackdrop = false;
@@ -39,6 +43,11 @@ struct LoadedScene {
     scene::RenderSettings settings;
     io::LoadedEnvironment environment;
     std::string environmentName;
+    scene::CameraRequest camera;
+    int animation = scene::kRestPose; ///< that the scene is posed by
+
+    /// Poses the scene and looks at it anew, for a camera that moves. @param seconds finite
+    [[nodiscard]] core::Result<void> poseAt(double seconds);
 };
 
 /// @errors Usage for words, InputRefused for files

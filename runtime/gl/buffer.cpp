@@ -14,6 +14,8 @@ GLenum glTarget(BufferKind kind) {
         return GL_ELEMENT_ARRAY_BUFFER;
     case BufferKind::Uniform:
         return GL_UNIFORM_BUFFER;
+    case BufferKind::Texel:
+        return GL_TEXTURE_BUFFER;
     case BufferKind::Vertex:
         break;
     }
@@ -52,7 +54,8 @@ void Buffer::update(std::span<const std::byte> bytes) {
     glBindBuffer(target, id_);
     if (bytes.size() > size_) {
         glBufferData(target, static_cast<GLsizeiptr>(bytes.size()), bytes.data(),
-                     kind_ == BufferKind::Uniform ? GL_DYNAMIC_DRAW : GL_STATIC_DRAW);
+                     kind_ == BufferKind::Uniform || kind_ == BufferKind::Texel ? GL_DYNAMIC_DRAW
+                                                                                : GL_STATIC_DRAW);
         size_ = bytes.size();
     } else {
         glBufferSubData(target, 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());

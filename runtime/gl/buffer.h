@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Vertex, index and uniform buffers, and vertex arrays. Move-only.
+// Vertex, index, uniform and texel buffers, and vertex arrays. Move-only.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace lodestar::gl {
 
-enum class BufferKind { Vertex, Index, Uniform };
+enum class BufferKind { Vertex, Index, Uniform, Texel };
 
 class Buffer {
 public:
@@ -42,7 +42,11 @@ enum class Attribute : unsigned {
     Tangent = 2,
     Uv0 = 3,
     Uv1 = 4,
-    Color = 5
+    Color = 5,
+    Joints0 = 6,
+    Weights0 = 7,
+    Joints1 = 8,
+    Weights1 = 9
 };
 
 class VertexArray {

@@ -32,15 +32,13 @@ bool goOn(const GltfProblems& problems, bool all) {
 
 void convert(GltfContext& context, const SideFiles& files, bool decodeImages, bool all) {
     listExtensions(context);
-    context.file.animationCount = static_cast<int>(memberSize(context.document, "animations"));
-    context.file.skinCount = static_cast<int>(memberSize(context.document, "skins"));
     for (const tinygltf::Buffer& buffer : context.model.buffers) {
         context.file.bufferBytes += buffer.data.size();
     }
     convertTextures(context);
     convertLights(context);
     for (const auto step : {convertMaterials, convertCameras, convertNodes, convertScenes,
-                            convertEnvironments, convertMeshes}) {
+                            convertEnvironments, convertMeshes, convertSkins, convertAnimations}) {
         core::Result<void> done = step(context);
         if (!done) {
             context.problems.refuse(done.error());

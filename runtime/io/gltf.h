@@ -14,6 +14,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x2.hpp>
+#include <glm/gtc/type_precision.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -97,6 +98,17 @@ struct GltfMaterial {
 
 enum class Topology { Points, Lines, Triangles };
 
+/// Joints that move one vertex are given in sets of four.
+inline constexpr std::size_t kInfluenceSets = 2;
+
+/// What one morph target adds to a primitive's vertices at weight 1. Each list is empty or as long
+/// as the primitive's positions.
+struct GltfMorphTarget {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec3> tangents;
+};
+
 /// One drawable: decoded, indexed, strips and fans unrolled. normals are generated flat where a
 /// triangle mesh has none (with vertices split as glTF asks); empty for points and lines without.
 struct GltfPrimitive {
@@ -108,11 +120,52 @@ struct GltfPrimitive {
     std::vector<glm::vec4> colors;      ///< linear; empty if absent
     std::vector<std::uint32_t> indices; ///< every one < positions.size()
     int material = kNone;               ///< kNone: glTF's default material
+    bool flatNormals = false;           ///< normals were generated: deformed faces make new ones
+    /// Into the joints of the node's skin, by set; empty if absent. 0 where the weight is 0.
+    std::vector<glm::u16vec4> joints[kInfluenceSets];
+    std::vector<glm::vec4> weights[kInfluenceSets]; ///< >= 0, 1 in all at every vertex
+    std::vector<GltfMorphTarget> targets;           ///< as many in all primitives of a mesh
 };
 
 struct GltfMesh {
     std::string name;
     std::vector<GltfPrimitive> primitives;
+    std::vector<float> weights; ///< of the morph targets, one each; a node's win
+};
+
+/// How a sampler's values are joined between its times.
+enum class Interpolation { Step, Linear, CubicSpline };
+
+/// Keys over time. A key of CubicSpline holds an in-tangent, a value and an out-tangent.
+struct GltfAnimationSampler {
+    Interpolation interpolation = Interpolation::Linear;
+    std::vector<float> times;  ///< seconds, >= 0, strictly increasing; empty if no channel reads it
+    std::vector<float> values; ///< finite; key by key, `components` numbers each (3 times: spline)
+    std::size_t components = 0; ///< of one value: 3, 4 (quaternion xyzw) or the number of targets
+};
+
+/// What of a node an animation moves.
+enum class AnimationPath { Translation, Rotation, Scale, Weights };
+
+struct GltfAnimationChannel {
+    int node = kNone;
+    AnimationPath path = AnimationPath::Translation;
+    int sampler = 0; ///< of the same animation
+};
+
+/// No two channels of an animation move the same thing, and none a node with a matrix.
+struct GltfAnimation {
+    std::string name;
+    std::vector<GltfAnimationChannel> channels;
+    std::vector<GltfAnimationSampler> samplers;
+};
+
+/// Joints that deform a mesh.
+struct GltfSkin {
+    std::string name;
+    std::vector<int> joints;            ///< nodes; at least one
+    std::vector<glm::mat4> inverseBind; ///< jointFromMesh in the bind pose, one a joint
+    int skeleton = kNone;               ///< node; the joints' common root, for information
 };
 
 /// Right-handed, looks along -Z, +Y up.
@@ -152,7 +205,8 @@ struct GltfNode {
     int mesh = kNone;
     int camera = kNone;
     int light = kNone;
-    int skin = kNone; ///< recorded; joints are not applied yet
+    int skin = kNone;           ///< kNone unless the node has a mesh with joints
+    std::vector<float> weights; ///< of its mesh's morph targets; empty: the mesh's own
 };
 
 /// EXT_lights_image_based. Its irradiance coefficients are not kept: irradiance is made from the
@@ -193,10 +247,10 @@ struct GltfFile {
     std::vector<GltfCamera> cameras;
     std::vector<GltfLight> lights;
     std::vector<GltfEnvironment> environments;
+    std::vector<GltfAnimation> animations;
+    std::vector<GltfSkin> skins;
     std::vector<std::string> extensionsUsed;
     std::vector<std::string> extensionsRequired;
-    int animationCount = 0;
-    int skinCount = 0;
     std::size_t bufferBytes = 0; ///< of all buffers
     core::Tally warnings;        ///< what was repaired or ignored
 

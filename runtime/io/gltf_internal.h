@@ -149,6 +149,27 @@ void makeFlat(GltfPrimitive& primitive);
 void repairNormals(GltfPrimitive& primitive, core::Tally& warnings);
 void repairTangents(GltfPrimitive& primitive, core::Tally& warnings);
 
+/// JOINTS_n and WEIGHTS_n: every weight >= 0, 1 in all at a vertex.
+/// @param at the primitive's JSON pointer
+[[nodiscard]] core::Result<void> readInfluences(GltfContext& context,
+                                                const tinygltf::Primitive& source,
+                                                const std::string& at, GltfPrimitive& primitive);
+/// Morph targets, as the document lists them. @param at the primitive's JSON pointer
+[[nodiscard]] core::Result<void> readTargets(GltfContext& context, const Json& json,
+                                             const std::string& at, GltfPrimitive& primitive);
+/// The weights of a mesh's targets, 0 where the file says nothing; as many in every primitive.
+[[nodiscard]] core::Result<void> readTargetWeights(GltfContext& context, std::size_t mesh,
+                                                   GltfMesh& converted);
+/// The numbers of an accessor of the type, or an error at `at`.
+/// @param types componentTypes allowed, for the message too
+[[nodiscard]] core::Result<std::vector<float>>
+readTyped(GltfContext& context, int accessor, const char* type, std::initializer_list<int> types,
+          bool forceNormalized, const std::string& at);
+/// Skins, and what the nodes with a skin say of it. @pre nodes and meshes are converted
+[[nodiscard]] core::Result<void> convertSkins(GltfContext& context);
+/// @pre nodes and meshes are converted
+[[nodiscard]] core::Result<void> convertAnimations(GltfContext& context);
+
 [[nodiscard]] core::Result<void> convertMaterials(GltfContext& context);
 /// Reads members that the schema's tables leave out, of an extension's object. The first fault is
 /// kept and ends up in status(); what follows it reads as absent.

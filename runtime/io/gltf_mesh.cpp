@@ -11,7 +11,8 @@ namespace lodestar::io::detail {
 namespace {
 
 constexpr std::size_t kBytesPerFlatVertex =
-    2 * sizeof(glm::vec3) + 2 * sizeof(glm::vec2) + sizeof(glm::vec4) + sizeof(std::uint32_t);
+    2 * sizeof(glm::vec3) + 2 * sizeof(glm::vec2) + sizeof(glm::vec4) + sizeof(std::uint32_t) +
+    kInfluenceSets * (sizeof(glm::u16vec4) + sizeof(glm::vec4));
 
 /// One primitive on its way.
 class PrimitiveReader {
@@ -33,8 +34,8 @@ public:
         primitive.material = source_.material;
         for (const auto step : {&PrimitiveReader::readPositions, &PrimitiveReader::readNormals,
                                 &PrimitiveReader::readTangents, &PrimitiveReader::readUvs,
-                                &PrimitiveReader::readColors, &PrimitiveReader::readTopology,
-                                &PrimitiveReader::finish}) {
+                                &PrimitiveReader::readColors, &PrimitiveReader::readDeformation,
+                                &PrimitiveReader::readTopology, &PrimitiveReader::finish}) {
             core::Result<void> done = (this->*step)(primitive);
             if (!done) {
                 return done.error();
@@ -203,6 +204,11 @@ private:
         return {};
     }
 
+    core::Result<void> readDeformation(GltfPrimitive& primitive) {
+        core::Result<void> done = readInfluences(context_, source_, at_, primitive);
+        return done ? readTargets(context_, json_, at_, primitive) : done;
+    }
+
     void repairTo(std::vector<float>& values, float replacement, const char* rule) {
         std::uint64_t count = 0;
         for (float& value : values) {
@@ -279,7 +285,9 @@ private:
 
     core::Result<void> finish(GltfPrimitive& primitive) {
         if (primitive.topology == Topology::Triangles && primitive.normals.empty()) {
-            if (!context_.geometry.spend(primitive.indices.size() * kBytesPerFlatVertex)) {
+            const std::size_t perVertex =
+                kBytesPerFlatVertex + 3 * sizeof(glm::vec3) * primitive.targets.size();
+            if (!context_.geometry.spend(primitive.indices.size() * perVertex)) {
                 return core::refused("geometry decodes to too much", at_);
             }
             makeFlat(primitive);
@@ -317,11 +325,13 @@ core::Result<void> convertMeshes(GltfContext& context) {
                 context.problems.refuse(drawable.error());
                 continue;
             }
-            const std::size_t targets = memberSize(primitives[p], "targets");
-            context.file.warnings.add("morph target, not applied", targets);
             if (*drawable) {
                 mesh.primitives.push_back(std::move(primitive));
             }
+        }
+        core::Result<void> weights = readTargetWeights(context, m, mesh);
+        if (!weights) {
+            return weights;
         }
         context.file.meshes.push_back(std::move(mesh));
     }

@@ -79,6 +79,9 @@ core::Result<GltfNode> readNode(GltfContext& context, std::size_t index) {
     node.mesh = source.mesh;
     node.camera = source.camera;
     node.skin = source.skin;
+    for (std::size_t i = 0; i < memberSize(json, "weights"); ++i) {
+        node.weights.push_back(json["weights"][i].get<float>());
+    }
     const Json* extensions = member(json, "extensions");
     const Json* punctual =
         extensions == nullptr ? nullptr : member(*extensions, "KHR_lights_punctual");
@@ -103,7 +106,6 @@ core::Result<GltfNode> readNode(GltfContext& context, std::size_t index) {
         return core::refused("node's transform is not finite", pointer("/nodes", index));
     }
     warnings.add("node transform is singular, kept", singular(node.matrix) ? 1 : 0);
-    warnings.add("skin of a node, not applied", node.skin == kNone ? 0 : 1);
     return node;
 }
 

@@ -105,6 +105,16 @@ void makeFlat(GltfPrimitive& primitive) {
     for (std::vector<glm::vec2>& uvs : primitive.uvs) {
         uvs = gathered(uvs, primitive.indices);
     }
+    for (std::size_t set = 0; set < kInfluenceSets; ++set) {
+        primitive.joints[set] = gathered(primitive.joints[set], primitive.indices);
+        primitive.weights[set] = gathered(primitive.weights[set], primitive.indices);
+    }
+    for (GltfMorphTarget& target : primitive.targets) {
+        target.positions = gathered(target.positions, primitive.indices);
+        target.normals.clear(); // as the tangents: deltas of normals that are not there
+        target.tangents.clear();
+    }
+    primitive.flatNormals = true;
     primitive.normals = std::move(normals);
     primitive.tangents.clear(); // given tangents belong to given normals only
     for (std::size_t i = 0; i < primitive.indices.size(); ++i) {

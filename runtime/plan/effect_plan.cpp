@@ -11,7 +11,7 @@ namespace {
 
 using lighting::PreparedParts;
 
-constexpr std::array<const char*, 18> kFeatureNames = {"normals",
+constexpr std::array<const char*, 20> kFeatureNames = {"normals",
                                                        "tangents",
                                                        "vertex-colors",
                                                        "base-color-texture",
@@ -28,7 +28,9 @@ constexpr std::array<const char*, 18> kFeatureNames = {"normals",
                                                        "texture-transform",
                                                        "unlit",
                                                        "specular-texture",
-                                                       "specular-color-texture"};
+                                                       "specular-color-texture",
+                                                       "skinning",
+                                                       "second-joints"};
 
 /// Texels of a whole chain of six faces.
 std::uint64_t chainTexels(int width) {
@@ -125,6 +127,41 @@ void planEnvironment(const PlanInput& input, const Receivers& receivers, EffectP
     }
 }
 
+/// Joints and morphed vertices: asked for by what is visible, made when they changed.
+void planDeformation(const PlanInput& input, EffectPlan& result) {
+    std::size_t skinned = 0, morphed = 0, changed = 0;
+    std::uint64_t morphBytes = 0;
+    for (const DrawView& draw : input.draws) {
+        const bool morphs = draw.visible && draw.morphBytes > 0;
+        skinned += draw.visible && has(draw.features, Feature::Skinning) ? 1U : 0U;
+        morphed += morphs ? 1U : 0U;
+        changed += morphs && draw.weightsChanged ? 1U : 0U;
+        morphBytes += morphs && draw.weightsChanged ? draw.morphBytes : 0U;
+    }
+    Effect skinning{"skinning", std::to_string(skinned) + " draws", Decision::Skip, {}, {}};
+    if (skinned == 0) {
+        skinning.reason = "nothing visible follows joints";
+    } else if (!input.jointsMoved) {
+        skinning.reason = "no joint has moved since they were uploaded";
+    } else {
+        skinning.decision = Decision::Run;
+        skinning.reason = "visible meshes follow joints";
+        skinning.cost.uploadBytes = input.jointBytes;
+    }
+    result.effects.push_back(std::move(skinning));
+    Effect morphs{"morphs", std::to_string(morphed) + " draws", Decision::Skip, {}, {}};
+    if (morphed == 0) {
+        morphs.reason = "nothing visible has morph targets";
+    } else if (changed == 0) {
+        morphs.reason = "no weight has changed since the vertices were made";
+    } else {
+        morphs.decision = Decision::Run;
+        morphs.reason = std::to_string(changed) + " visible draws with new weights";
+        morphs.cost.uploadBytes = morphBytes;
+    }
+    result.effects.push_back(std::move(morphs));
+}
+
 void planDraws(const PlanInput& input, EffectPlan& result) {
     std::vector<std::size_t> blended;
     for (std::size_t i = 0; i < input.draws.size(); ++i) {
@@ -179,6 +216,7 @@ EffectPlan plan(const PlanInput& input) {
     EffectPlan result;
     const Receivers receivers = visibleReceivers(input);
     planEnvironment(input, receivers, result);
+    planDeformation(input, result);
     planDraws(input, result);
     result.effects.push_back(
         {"punctual-lights",

@@ -33,6 +33,8 @@ enum class Feature : std::uint32_t {
     Unlit = 1u << 15,                ///< the base colour is the radiance; no light is asked for
     SpecularTexture = 1u << 16,      ///< scales a dielectric's F0
     SpecularColorTexture = 1u << 17, ///< the same by colour
+    Skinning = 1u << 18,     ///< four joints a vertex
+    SecondJoints = 1u << 19, ///< four more
 };
 
 using Features = std::uint32_t;
@@ -57,6 +59,8 @@ struct DrawView {
     bool blended = false;
     float distance = 0.0f; ///< metres along the view, for the order of blended draws
     int indexCount = 0;
+    std::uint64_t morphBytes = 0; ///< of its vertices with morph targets added; 0: it has none
+    bool weightsChanged = true;   ///< of its morph targets, since they were last added
 };
 
 struct EnvironmentView {
@@ -72,6 +76,8 @@ struct PlanInput {
     int lightCount = 0;
     lighting::Estimator specular = lighting::kDefaultSpecular;
     lighting::Estimator diffuse = lighting::kDefaultDiffuse;
+    bool jointsMoved = true;      ///< since they were last uploaded
+    std::uint64_t jointBytes = 0; ///< of all skins' joints
     bool backdrop = true;
     std::uint64_t pixels = 0;                ///< shaded in a frame
     lighting::PreparedParts alreadyPrepared; ///< from earlier frames, of the same environment
@@ -88,7 +94,7 @@ struct Cost {
 };
 
 struct Effect {
-    std::string effect;  ///< "environment-mips", "irradiance", "draws", "backdrop", ...
+    std::string effect;  ///< "environment-mips", "irradiance", "skinning", "draw", ...
     std::string subject; ///< what it acts on
     Decision decision = Decision::Run;
     std::string reason; ///< a sentence for people

@@ -39,11 +39,20 @@ plan::DrawView drawView(const Scene& scene, const DrawItem& item, const View& vi
     const auto mesh = static_cast<std::size_t>(item.mesh);
     const auto part = static_cast<std::size_t>(item.primitive);
     const io::GltfPrimitive& primitive = scene.meshes[mesh].primitives[part];
-    const Bounds bounds = transformed(scene.primitiveBounds[mesh][part], node.worldFromNode);
+    const auto& component =
+        std::get<MeshComponent>(node.components[static_cast<std::size_t>(item.component)]);
+    const Bounds bounds = primitiveWorldBounds(scene, node, component, part);
     plan::DrawView draw;
     draw.subject = (node.name.empty() ? "node " + std::to_string(item.node) : node.name) + "/" +
                    std::to_string(item.primitive);
     draw.features = featuresOf(scene, primitive, settings);
+    const bool skinned = component.skin != io::kNone && !primitive.joints[0].empty();
+    draw.features |= skinned ? bit(Feature::Skinning) : 0u;
+    draw.features |= skinned && !primitive.joints[1].empty() ? bit(Feature::SecondJoints) : 0u;
+    draw.morphBytes = primitive.targets.empty() ? 0
+                                                : primitive.positions.size() * sizeof(glm::vec3) +
+                                                      primitive.normals.size() * sizeof(glm::vec3) +
+                                                      primitive.tangents.size() * sizeof(glm::vec4);
     draw.visible = mayBeSeen(bounds, clipFromWorld);
     draw.blended = plan::has(draw.features, Feature::AlphaBlend);
     draw.indexCount = static_cast<int>(primitive.indices.size());
@@ -60,11 +69,13 @@ plan::DrawView drawView(const Scene& scene, const DrawItem& item, const View& vi
 std::vector<DrawItem> drawItems(const Scene& scene) {
     std::vector<DrawItem> items;
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
-        for (const Component& component : scene.nodes[n].components) {
-            if (const auto* mesh = std::get_if<MeshComponent>(&component)) {
+        const std::vector<Component>& components = scene.nodes[n].components;
+        for (std::size_t c = 0; c < components.size(); ++c) {
+            if (const auto* mesh = std::get_if<MeshComponent>(&components[c])) {
                 const auto& parts = scene.meshes[static_cast<std::size_t>(mesh->mesh)].primitives;
                 for (std::size_t p = 0; p < parts.size(); ++p) {
-                    items.push_back({static_cast<int>(n), mesh->mesh, static_cast<int>(p)});
+                    items.push_back({static_cast<int>(n), mesh->mesh, static_cast<int>(p),
+                                     static_cast<int>(c)});
                 }
             }
         }
@@ -149,6 +160,9 @@ plan::PlanInput planInput(const Scene& scene, const View& view, const RenderSett
     const glm::mat4 clipFromWorld = view.clipFromWorld();
     for (const DrawItem& item : drawItems(scene)) {
         input.draws.push_back(drawView(scene, item, view, clipFromWorld, settings));
+    }
+    for (const io::GltfSkin& skin : scene.skins) {
+        input.jointBytes += skin.joints.size() * 3 * sizeof(glm::vec4);
     }
     input.environment = environment;
     input.lightCount = static_cast<int>(placedLights(scene).size());

@@ -16,6 +16,7 @@ struct DrawItem {
     int node = 0;
     int mesh = 0;
     int primitive = 0;
+    int component = 0; ///< the node's MeshComponent
 };
 
 /// Every drawable, in node order: the order of PlanInput::draws.

@@ -57,8 +57,9 @@ void addAttribute(gl::Device& device, GpuPrimitive& target, gl::Attribute attrib
     if (!values.empty()) {
         gl::Buffer& buffer = target.buffers.emplace_back(device, gl::BufferKind::Vertex,
                                                          std::as_bytes(std::span(values)));
-        target.vertices.setAttribute(attribute, buffer,
-                                     static_cast<int>(sizeof(T) / sizeof(float)));
+        const auto components = static_cast<int>(sizeof(T) / sizeof(float));
+        target.vertices.setAttribute(attribute, buffer, components);
+        target.attributes.push_back({attribute, target.buffers.size() - 1, components});
     }
 }
 
@@ -71,6 +72,15 @@ GpuPrimitive upload(gl::Device& device, const io::GltfPrimitive& primitive) {
     addAttribute(device, result, gl::Attribute::Uv0, primitive.uvs[0]);
     addAttribute(device, result, gl::Attribute::Uv1, primitive.uvs[1]);
     addAttribute(device, result, gl::Attribute::Color, primitive.colors);
+    constexpr gl::Attribute kJoints[] = {gl::Attribute::Joints0, gl::Attribute::Joints1};
+    constexpr gl::Attribute kWeights[] = {gl::Attribute::Weights0, gl::Attribute::Weights1};
+    for (std::size_t set = 0; set < io::kInfluenceSets; ++set) {
+        // As floats: exact for 16 bits.
+        addAttribute(
+            device, result, kJoints[set],
+            std::vector<glm::vec4>(primitive.joints[set].begin(), primitive.joints[set].end()));
+        addAttribute(device, result, kWeights[set], primitive.weights[set]);
+    }
     const gl::Buffer& indices = result.buffers.emplace_back(
         device, gl::BufferKind::Index, std::as_bytes(std::span(primitive.indices)));
     result.vertices.setIndices(indices);

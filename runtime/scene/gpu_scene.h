@@ -17,8 +17,15 @@
 namespace lodestar::scene {
 
 struct GpuPrimitive {
+    /// An attribute that a buffer of the list holds.
+    struct Stored {
+        gl::Attribute attribute;
+        std::size_t buffer;
+        int components;
+    };
     gl::VertexArray vertices;
-    std::vector<gl::Buffer> buffers;
+    std::vector<Stored> attributes;
+    std::vector<gl::Buffer> buffers; ///< the indices last
     gl::DrawMode mode = gl::DrawMode::Triangles;
     int indexCount = 0;
 };
@@ -36,14 +43,15 @@ enum TextureUnit : int {
     kMaterialUnitCount = LODESTAR_MATERIAL_TEXTURES,
     kEnvironmentUnit = kMaterialUnitCount,
     kIrradianceUnit,
+    kJointUnit,
 };
 
 /// The names of the samplers, by unit.
-inline constexpr std::array<const char*, 10> kSamplerNames = {
+inline constexpr std::array<const char*, 11> kSamplerNames = {
     "uBaseColorTexture", "uMetallicRoughnessTexture", "uNormalTexture",
     "uOcclusionTexture", "uEmissiveTexture",          "uExponentTexture",
     "uSpecularTexture",  "uSpecularColorTexture",     "uEnvironment",
-    "uIrradiance"};
+    "uIrradiance",       "uJoints"};
 
 class GpuScene {
 public:

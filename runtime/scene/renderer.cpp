@@ -13,6 +13,7 @@
 
 #include "gl/timer.h"
 #include "scene/draw_list.h"
+#include "scene/gpu_deformation.h"
 #include "scene/gpu_environment.h"
 #include "scene/gpu_scene.h"
 
@@ -86,6 +87,8 @@ gl::Defines definesFor(plan::Features features, const RenderSettings& settings) 
         {"LODESTAR_UNLIT", Feature::Unlit},
         {"LODESTAR_SPECULAR_TEXTURE", Feature::SpecularTexture},
         {"LODESTAR_SPECULAR_COLOR_TEXTURE", Feature::SpecularColorTexture},
+        {"LODESTAR_SKINNING", Feature::Skinning},
+        {"LODESTAR_SECOND_JOINTS", Feature::SecondJoints},
     };
     for (const auto& [name, feature] : macros) {
         defines.emplace_back(name, plan::has(features, feature) ? "1" : "0");
@@ -124,6 +127,13 @@ void setLights(const Scene& scene, blocks::LodestarFrame& block) {
         ++count;
     }
     block.lightCount = glm::vec4(static_cast<float>(count));
+}
+
+bool mostlyMirrored(const std::vector<glm::mat4>& matrices) {
+    const auto mirrored = std::count_if(matrices.begin(), matrices.end(), [](const glm::mat4& m) {
+        return glm::determinant(glm::mat3(m)) < 0.0f;
+    });
+    return 2 * static_cast<std::size_t>(mirrored) > matrices.size();
 }
 
 /// The part of clip space that a tile shows, stretched over the whole of it.
@@ -166,14 +176,15 @@ std::uint64_t resolve(const core::Image& samples, int perSide, const glm::ivec2&
 } // namespace
 
 struct Renderer::State {
-    State(gl::Device& glDevice, const Scene& drawn, GpuScene uploaded)
+    State(gl::Device& glDevice, const Scene& drawn, GpuScene uploaded, GpuDeformation deformed)
         : device(glDevice), scene(drawn), gpu(std::move(uploaded)), items(drawItems(drawn)),
-          fullScreen(glDevice), timer(glDevice) {}
+          deformation(std::move(deformed)), fullScreen(glDevice), timer(glDevice) {}
 
     gl::Device& device;
     const Scene& scene;
     GpuScene gpu;
     std::vector<DrawItem> items;
+    GpuDeformation deformation;
     gl::VertexArray fullScreen;
     gl::Timer timer;
     gl::Buffer frameBuffer, drawBuffer, materialBuffer;
@@ -190,7 +201,8 @@ struct Renderer::State {
     void drawTile(const plan::EffectPlan& plan, const RenderSettings& settings,
                   const blocks::LodestarFrame& block);
     void drawBackdrop();
-    void drawItem(const DrawItem& item, plan::Features features, const RenderSettings& settings);
+    blocks::LodestarDraw drawBlock(const DrawItem& item, plan::Features features) const;
+    void drawItem(std::size_t index, plan::Features features, const RenderSettings& settings);
 };
 
 core::Result<const gl::Program*> Renderer::State::program(const gl::Defines& defines) {
@@ -240,22 +252,38 @@ void Renderer::State::drawBackdrop() {
     glDepthMask(GL_TRUE);
 }
 
-void Renderer::State::drawItem(const DrawItem& item, plan::Features features,
-                               const RenderSettings& settings) {
+blocks::LodestarDraw Renderer::State::drawBlock(const DrawItem& item,
+                                                plan::Features features) const {
     const Node& node = scene.nodes[static_cast<std::size_t>(item.node)];
+    blocks::LodestarDraw draw{};
+    draw.worldFromModel = node.worldFromNode;
+    // The adjugate's transpose stands for the inverse transpose: it exists for singular transforms,
+    // and its sign follows the determinant's, which the front-face rule undoes.
+    const glm::mat3 m(node.worldFromNode);
+    float sign = glm::determinant(m) < 0.0f ? -1.0f : 1.0f;
+    draw.normalFromModel = glm::mat4(
+        sign * glm::mat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])));
+    if (plan::has(features, plan::Feature::Skinning)) {
+        const int skin =
+            std::get<MeshComponent>(node.components[static_cast<std::size_t>(item.component)]).skin;
+        draw.skin.x = deformation.firstTexel(skin);
+        sign = mostlyMirrored(jointMatrices(scene, scene.skins[static_cast<std::size_t>(skin)]))
+                   ? -1.0f
+                   : 1.0f;
+    }
+    draw.skin.w = sign;
+    return draw;
+}
+
+void Renderer::State::drawItem(std::size_t index, plan::Features features,
+                               const RenderSettings& settings) {
+    const DrawItem& item = items[index];
     const GpuPrimitive& part = gpu.primitive(item.mesh, item.primitive);
     const io::GltfMaterial& material =
         materialOf(scene, scene.meshes[static_cast<std::size_t>(item.mesh)]
                               .primitives[static_cast<std::size_t>(item.primitive)]);
     programs.at(definesFor(features, settings)).use();
-    blocks::LodestarDraw draw{};
-    draw.worldFromModel = node.worldFromNode;
-    // The adjugate's transpose stands for the inverse transpose: it exists for singular transforms,
-    // and its sign follows the determinant's, which the front-face rule below undoes.
-    const glm::mat3 m(node.worldFromNode);
-    const float sign = glm::determinant(m) < 0.0f ? -1.0f : 1.0f;
-    draw.normalFromModel = glm::mat4(
-        sign * glm::mat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])));
+    const blocks::LodestarDraw draw = drawBlock(item, features);
     drawBuffer.update(bytesOf(draw));
     drawBuffer.bindBlock(kDrawBinding);
     const blocks::LodestarMaterial block = materialBlock(material, settings.materialOverride);
@@ -264,11 +292,12 @@ void Renderer::State::drawItem(const DrawItem& item, plan::Features features,
     gpu.bindTextures(material);
     const bool twoSided = material.doubleSided || part.mode != gl::DrawMode::Triangles;
     twoSided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
-    glFrontFace(sign < 0.0f ? GL_CW : GL_CCW);
+    glFrontFace(draw.skin.w < 0.0f ? GL_CW : GL_CCW);
     const bool blended = plan::has(features, plan::Feature::AlphaBlend);
     blended ? glEnable(GL_BLEND) : glDisable(GL_BLEND);
     glDepthMask(blended ? GL_FALSE : GL_TRUE);
-    part.vertices.bind();
+    const gl::VertexArray* morphed = deformation.vertices(index);
+    (morphed != nullptr ? *morphed : part.vertices).bind();
     gl::drawIndexed(device, part.mode, part.indexCount);
 }
 
@@ -285,6 +314,7 @@ void Renderer::State::drawTile(const plan::EffectPlan& plan, const RenderSetting
     frameBuffer.update(bytesOf(block));
     frameBuffer.bindBlock(kFrameBinding);
     environment.bind(settings);
+    deformation.bind();
     bool backdropDrawn = !plan.backdrop;
     for (std::size_t i = 0; i < plan.drawOrder.size(); ++i) {
         const plan::Features features = plan.drawFeatures[i];
@@ -292,7 +322,7 @@ void Renderer::State::drawTile(const plan::EffectPlan& plan, const RenderSetting
             drawBackdrop();
             backdropDrawn = true;
         }
-        drawItem(items[plan.drawOrder[i]], features, settings);
+        drawItem(plan.drawOrder[i], features, settings);
     }
     if (!backdropDrawn) {
         drawBackdrop();
@@ -307,7 +337,12 @@ core::Result<std::unique_ptr<Renderer>> Renderer::make(gl::Device& device, const
     if (!uploaded) {
         return uploaded.error();
     }
-    auto state = std::make_unique<State>(device, scene, std::move(*uploaded));
+    auto deformation = GpuDeformation::make(device, scene, drawItems(scene));
+    if (!deformation) {
+        return deformation.error();
+    }
+    auto state =
+        std::make_unique<State>(device, scene, std::move(*uploaded), std::move(*deformation));
     state->frameBuffer =
         gl::Buffer(device, gl::BufferKind::Uniform, bytesOf(blocks::LodestarFrame{}));
     state->drawBuffer =
@@ -374,10 +409,13 @@ core::Result<Frame> Renderer::render(const View& view, const RenderSettings& set
     frame.plan = timed("plan", [&] {
         plan::PlanInput input = planInput(state.scene, view, settings, state.environment.view());
         input.alreadyPrepared = state.environment.prepared();
+        state.deformation.describe(state.scene, state.items, input);
         return plan::plan(input);
     });
-    auto prepared = timed(
-        "prepare", [&] { return state.environment.prepare(state.device, frame.plan.prepare); });
+    auto prepared = timed("prepare", [&] {
+        state.deformation.prepare(state.device, state.scene, state.items, state.gpu, frame.plan);
+        return state.environment.prepare(state.device, frame.plan.prepare);
+    });
     if (!prepared) {
         return prepared.error();
     }

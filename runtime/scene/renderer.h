@@ -54,7 +54,7 @@ struct Frame {
                                         const plan::EnvironmentView& environment);
 
 /// Draws one scene under one environment. The scene must outlive the renderer unchanged but for
-/// node transforms.
+/// its pose: node transforms and morph weights.
 class Renderer {
 public:
     /// Uploads what the scene needs. @errors NoOpenGl if the driver has no memory for it

@@ -3,6 +3,7 @@
 // The scene graph: nodes with components. Values only; the renderer keeps what belongs to GL.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -15,9 +16,12 @@
 
 namespace lodestar::scene {
 
-/// Draws a mesh of the scene's file at the node.
+/// Draws a mesh of the scene's file at the node, or where its skin's joints are.
 struct MeshComponent {
     int mesh = 0;
+    int skin = io::kNone;             ///< into Scene::skins
+    std::vector<float> weights;       ///< of the mesh's morph targets, now; one each
+    std::vector<float> restWeights{}; ///< as in the file
 };
 /// A camera looking along the node's -Z.
 struct CameraComponent {
@@ -30,6 +34,15 @@ struct LightComponent {
 
 using Component = std::variant<MeshComponent, CameraComponent, LightComponent>;
 
+/// Translation, rotation and scale of a node in its parent.
+struct Trs {
+    glm::vec3 translation{0.0f};
+    glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
+    glm::vec3 scale{1.0f};
+
+    [[nodiscard]] glm::mat4 matrix() const;
+};
+
 /// A node; parents stand before their children in Scene::nodes.
 struct Node {
     std::string name;
@@ -37,6 +50,7 @@ struct Node {
     glm::mat4 parentFromNode{1.0f};
     glm::mat4 worldFromNode{1.0f}; ///< set by updateTransforms
     std::vector<Component> components;
+    std::optional<Trs> rest{}; ///< as in the file; absent where that gives a matrix
 };
 
 /// Axis-aligned box; empty while low > high.
@@ -53,23 +67,41 @@ struct Bounds {
 
 [[nodiscard]] Bounds transformed(const Bounds& bounds, const glm::mat4& transform);
 
+/// What bounds a primitive when it is deformed; boxes in mesh space.
+struct DeformedBounds {
+    std::vector<Bounds> deltas; ///< of each morph target's position deltas
+    std::vector<Bounds> joints; ///< by joint: of the vertices that follow it
+};
+
 /// One scene of a file, and what its nodes refer to.
 struct Scene {
     std::string name;
     std::vector<Node> nodes;
     std::vector<io::GltfMesh> meshes;
     std::vector<std::vector<Bounds>> primitiveBounds; ///< in mesh space, by mesh and primitive
+    std::vector<std::vector<DeformedBounds>> deformedBounds; ///< by mesh and primitive
+    std::vector<io::GltfAnimation> animations; ///< nodes into `nodes`; those elsewhere left out
+    std::vector<io::GltfSkin> skins; ///< joints into `nodes`; kNone only in skins that none wears
+    Bounds reach; ///< what worldBounds() holds besides the present pose; empty at first
     std::vector<io::GltfMaterial> materials;
     std::vector<io::GltfTexture> textures;
     std::vector<core::Image> images;
     core::Tally warnings;
 
+    /// Of everything in its present pose, and `reach`.
     [[nodiscard]] Bounds worldBounds() const;
 };
 
 /// Builds a scene of a file, with its transforms up to date. @param scene index, or -1 for the
 /// file's default; a file without scenes shows all its root nodes
 [[nodiscard]] Scene buildScene(io::GltfFile file, int scene = -1);
+
+/// A box about a primitive as the node's component draws it, morphed and skinned: never too small.
+[[nodiscard]] Bounds primitiveWorldBounds(const Scene& scene, const Node& node,
+                                          const MeshComponent& component, std::size_t primitive);
+
+/// Where a skin's joints take the points of a mesh: worldFromMesh, one a joint.
+[[nodiscard]] std::vector<glm::mat4> jointMatrices(const Scene& scene, const io::GltfSkin& skin);
 
 /// Recomputes worldFromNode of every node.
 void updateTransforms(Scene& scene);

@@ -47,6 +47,7 @@ LODESTAR_BLOCK_END(LodestarFrame)
 LODESTAR_BLOCK(LodestarDraw)
     mat4 worldFromModel;
     mat4 normalFromModel; ///< inverse transpose of its 3x3 part
+    vec4 skin;            ///< x: first texel of its joints, w: -1 if it is mirrored, else 1
 LODESTAR_BLOCK_END(LodestarDraw)
 
 LODESTAR_BLOCK(LodestarMaterial)

@@ -8,6 +8,42 @@ layout(location = 2) in vec4 aTangent;
 layout(location = 3) in vec2 aUv0;
 layout(location = 4) in vec2 aUv1;
 layout(location = 5) in vec4 aColor;
+#if LODESTAR_SKINNING
+layout(location = 6) in vec4 aJoints0;
+layout(location = 7) in vec4 aWeights0;
+#if LODESTAR_SECOND_JOINTS
+layout(location = 8) in vec4 aJoints1;
+layout(location = 9) in vec4 aWeights1;
+#endif
+
+uniform samplerBuffer uJoints; // three rows of worldFromMesh a joint
+
+void addJoint(float joint, float weight, inout vec4 rows[3]) {
+    int texel = int(skin.x + 0.5) + 3 * int(joint + 0.5);
+    for (int i = 0; i < 3; ++i) {
+        rows[i] += weight * texelFetch(uJoints, texel + i);
+    }
+}
+
+/// The vertex's mixture of its joints' worldFromMesh.
+mat4 skinned() {
+    vec4 rows[3] = vec4[3](vec4(0.0), vec4(0.0), vec4(0.0));
+    for (int k = 0; k < 4; ++k) {
+        addJoint(aJoints0[k], aWeights0[k], rows);
+#if LODESTAR_SECOND_JOINTS
+        addJoint(aJoints1[k], aWeights1[k], rows);
+#endif
+    }
+    return transpose(mat4(rows[0], rows[1], rows[2], vec4(0.0, 0.0, 0.0, 1.0)));
+}
+
+/// The cofactors turned by the determinant's sign: along the inverse transpose, and there for
+/// singular matrices too.
+mat3 normalMatrix(mat3 m) {
+    mat3 cofactors = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
+    return dot(m[0], cofactors[0]) < 0.0 ? -cofactors : cofactors;
+}
+#endif
 
 out vec3 vPosition;
 out vec3 vNormal;
@@ -18,15 +54,25 @@ out vec4 vColor;
 out float vLeastLevel;
 
 void main() {
-    vec4 world = worldFromModel * vec4(aPosition, 1.0);
+#if LODESTAR_SKINNING
+    mat4 worldFromMesh = skinned();
+    mat3 worldFromNormal = normalMatrix(mat3(worldFromMesh));
+#else
+    mat4 worldFromMesh = worldFromModel;
+    mat3 worldFromNormal = mat3(normalFromModel);
+#endif
+    vec4 world = worldFromMesh * vec4(aPosition, 1.0);
     vPosition = world.xyz;
 #if LODESTAR_NORMALS
-    vNormal = mat3(normalFromModel) * aNormal;
+    vNormal = worldFromNormal * aNormal;
+#if LODESTAR_SKINNING
+    vNormal = lodestar_safeNormalize(vNormal, vec3(0.0)); // its length differs from vertex to vertex
+#endif
 #else
     vNormal = vec3(0.0);
 #endif
 #if LODESTAR_TANGENTS
-    vTangent = vec4(mat3(worldFromModel) * aTangent.xyz, aTangent.w);
+    vTangent = vec4(mat3(worldFromMesh) * aTangent.xyz, aTangent.w);
 #else
     vTangent = vec4(0.0);
 #endif

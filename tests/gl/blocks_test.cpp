@@ -76,6 +76,7 @@ TEST_F(Blocks, OffsetsAreTheDrivers) {
                             LODESTAR_FIELD(LodestarFrame, lightCone),
                             LODESTAR_FIELD(LodestarDraw, worldFromModel),
                             LODESTAR_FIELD(LodestarDraw, normalFromModel),
+                            LODESTAR_FIELD(LodestarDraw, skin),
                             LODESTAR_FIELD(LodestarMaterial, baseColor),
                             LODESTAR_FIELD(LodestarMaterial, emissive),
                             LODESTAR_FIELD(LodestarMaterial, surface),

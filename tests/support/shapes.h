@@ -54,7 +54,8 @@ inline io::GltfPrimitive square() {
 inline io::GltfFile fileOf(io::GltfPrimitive primitive, const io::GltfMaterial& material) {
     io::GltfFile file;
     primitive.material = 0;
-    file.meshes.push_back({"mesh", {std::move(primitive)}});
+    std::vector<float> weights(primitive.targets.size(), 0.0f);
+    file.meshes.push_back({"mesh", {std::move(primitive)}, std::move(weights)});
     file.materials.push_back(material);
     io::GltfNode node;
     node.name = "node";

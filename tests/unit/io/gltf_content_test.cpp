@@ -87,8 +87,8 @@ TEST(GltfContent, TheTriangleIsWholeInBothContainers) {
         EXPECT_EQ(file->defaultScene, 0);
         EXPECT_EQ(file->scenes.at(0).roots, (std::vector<int>{0, 1}));
         EXPECT_EQ(file->images.at(0).width(), 1);
-        EXPECT_EQ(file->animationCount, 1);
-        EXPECT_EQ(file->skinCount, 1);
+        EXPECT_EQ(file->animations.size(), 1u);
+        EXPECT_EQ(file->skins.size(), 1u);
         EXPECT_TRUE(file->warnings.empty()) << file->warnings.counts().begin()->first;
     }
 }

@@ -140,10 +140,12 @@ inline Json triangleDocument() {
       "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
                     {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC3"},
                     {"bufferView": 2, "componentType": 5126, "count": 3, "type": "VEC2"},
-                    {"bufferView": 3, "componentType": 5123, "count": 3, "type": "SCALAR"}],
+                    {"bufferView": 3, "componentType": 5123, "count": 3, "type": "SCALAR"},
+                    {"bufferView": 0, "componentType": 5126, "count": 1, "type": "SCALAR"},
+                    {"bufferView": 0, "componentType": 5126, "count": 1, "type": "VEC3"}],
       "skins": [{"joints": [0]}],
       "animations": [{"channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
-                      "samplers": [{"input": 3, "output": 0}]}]
+                      "samplers": [{"input": 4, "output": 5}]}]
     })");
 }
 

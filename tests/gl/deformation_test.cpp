@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: MIT
+//
+// Skinned and morphed meshes against the same vertices made here, in double, as a static mesh.
+#include <cmath>
+
+#include <glm/gtc/matrix_inverse.hpp>
+
+#include "io/gltf.h"
+#include "lighting/environment.h"
+#include "lodestar/display.glsl"
+#include "scene/animation.h"
+#include "scene/draw_list.h"
+#include "scene/renderer.h"
+#include "support/gl_fixture.h"
+#include "support/picture.h"
+#include "support/shapes.h"
+#include "support/shared.h"
+
+namespace lodestar {
+namespace {
+
+glm::dmat4 blended(const scene::Scene& scene, const io::GltfSkin& skin,
+                   const io::GltfPrimitive& primitive, std::size_t vertex) {
+    glm::dmat4 sum(0.0);
+    for (std::size_t set = 0; set < io::kInfluenceSets; ++set) {
+        for (glm::length_t k = 0; !primitive.joints[set].empty() && k < 4; ++k) {
+            const std::size_t j = primitive.joints[set][vertex][k];
+            const glm::dmat4 world(
+                scene.nodes[static_cast<std::size_t>(skin.joints[j])].worldFromNode);
+            sum +=
+                double{primitive.weights[set][vertex][k]} * world * glm::dmat4(skin.inverseBind[j]);
+        }
+    }
+    return sum;
+}
+
+void bakeTargets(io::GltfPrimitive& primitive, const std::vector<float>& weights) {
+    for (std::size_t i = 0; i < primitive.positions.size(); ++i) {
+        glm::dvec3 position(primitive.positions[i]);
+        glm::dvec3 normal(primitive.normals[i]);
+        for (std::size_t t = 0; t < primitive.targets.size(); ++t) {
+            const io::GltfMorphTarget& target = primitive.targets[t];
+            const double weight = weights[t];
+            position += target.positions.empty() ? glm::dvec3(0.0)
+                                                 : weight * glm::dvec3(target.positions[i]);
+            normal +=
+                target.normals.empty() ? glm::dvec3(0.0) : weight * glm::dvec3(target.normals[i]);
+        }
+        primitive.positions[i] = position;
+        primitive.normals[i] = glm::normalize(normal);
+    }
+    for (std::size_t i = 0; primitive.flatNormals && i < primitive.indices.size(); i += 3) {
+        const std::uint32_t* c = &primitive.indices[i];
+        const glm::dvec3 a(primitive.positions[c[0]]);
+        const glm::dvec3 n = glm::cross(glm::dvec3(primitive.positions[c[1]]) - a,
+                                        glm::dvec3(primitive.positions[c[2]]) - a);
+        for (int k = 0; k < 3; ++k) {
+            primitive.normals[c[k]] = glm::normalize(n);
+        }
+    }
+    primitive.targets.clear();
+}
+
+void bakeSkin(const scene::Scene& scene, const io::GltfSkin& skin, io::GltfPrimitive& primitive) {
+    for (std::size_t i = 0; i < primitive.positions.size(); ++i) {
+        const glm::dmat4 m = blended(scene, skin, primitive, i);
+        primitive.positions[i] = glm::dvec3(m * glm::dvec4(primitive.positions[i], 1.0));
+        primitive.normals[i] =
+            glm::normalize(glm::inverseTranspose(glm::dmat3(m)) * glm::dvec3(primitive.normals[i]));
+    }
+    for (std::size_t set = 0; set < io::kInfluenceSets; ++set) {
+        primitive.joints[set].clear();
+        primitive.weights[set].clear();
+    }
+}
+
+/// The scene in its present pose without a skin or target.
+scene::Scene baked(const scene::Scene& posed) {
+    scene::Scene result = posed;
+    for (std::size_t n = 0; n < result.nodes.size(); ++n) {
+        for (scene::Component& component : result.nodes[n].components) {
+            auto* shown = std::get_if<scene::MeshComponent>(&component);
+            if (shown == nullptr) {
+                continue;
+            }
+            io::GltfMesh mesh = posed.meshes[static_cast<std::size_t>(shown->mesh)];
+            std::vector<scene::Bounds> bounds;
+            for (io::GltfPrimitive& primitive : mesh.primitives) {
+                bakeTargets(primitive, shown->weights);
+                if (shown->skin != io::kNone) {
+                    bakeSkin(posed, posed.skins[static_cast<std::size_t>(shown->skin)], primitive);
+                    result.nodes[n].worldFromNode = glm::mat4(1.0f);
+                }
+                scene::Bounds& box = bounds.emplace_back();
+                for (const glm::vec3& position : primitive.positions) {
+                    box.add(position);
+                }
+            }
+            mesh.weights.clear();
+            shown->mesh = static_cast<int>(result.meshes.size());
+            shown->skin = io::kNone;
+            shown->weights.clear();
+            result.primitiveBounds.push_back(bounds);
+            result.deformedBounds.emplace_back(mesh.primitives.size());
+            result.meshes.push_back(std::move(mesh));
+        }
+    }
+    return result;
+}
+
+core::Image display(core::Image radiance) {
+    for (float& value : radiance.pixels()) {
+        value = shader::lodestar_srgbFromLinear(shader::lodestar_filmic(value));
+    }
+    return radiance;
+}
+
+class Deformation : public testing::GlTest {
+protected:
+    static scene::RenderSettings settings() {
+        scene::RenderSettings s;
+        s.width = s.height = 160;
+        return s;
+    }
+    std::unique_ptr<scene::Renderer> renderer(const scene::Scene& scene) {
+        auto made = scene::Renderer::make(device(), scene);
+        EXPECT_TRUE(made.ok());
+        (*made)->setEnvironment("sky",
+                                lighting::cubeFromAnalytic(lighting::ClearSkyEnvironment{}, 64));
+        return std::move(*made);
+    }
+
+    /// Three times of animation 0: as drawn against as baked.
+    void compareAtThreeTimes(scene::Scene scene, const char* effect) {
+        scene::reachOver(scene, 0);
+        const double last = scene::duration(scene, 0);
+        ASSERT_GT(last, 0.0);
+        const scene::View view = *scene::chooseView(scene, {}, 1.0f);
+        auto moving = renderer(scene);
+        core::Image before;
+        for (const double share : {0.13, 0.41, 0.77}) {
+            scene::pose(scene, 0, share * last);
+            const scene::Scene fixed = baked(scene);
+            auto drawn = moving->render(view, settings());
+            auto reference = renderer(fixed)->render(view, settings());
+            ASSERT_TRUE(drawn.ok() && reference.ok());
+            EXPECT_TRUE(drawn->plan.runs(effect));
+            EXPECT_FALSE(reference->plan.runs(effect));
+            expectHeld(scene, fixed);
+            const core::Image picture = display(drawn->radiance);
+            EXPECT_LE(testing::compare(picture, display(reference->radiance), 1.0 / 255.0).largest,
+                      1.0 / 255.0)
+                << effect << " at " << share;
+            if (!before.empty()) {
+                EXPECT_GT(testing::compare(picture, before, 0.05).failingFraction, 0.002)
+                    << "nothing moved";
+            }
+            before = picture;
+        }
+        // The same pose again: nothing is uploaded but the uniform blocks.
+        auto again = moving->render(view, settings());
+        ASSERT_TRUE(again.ok());
+        EXPECT_FALSE(again->plan.runs(effect));
+        auto third = moving->render(view, settings());
+        EXPECT_EQ(third->counters.uploadBytes, again->counters.uploadBytes);
+        EXPECT_EQ(display(again->radiance).pixels(), before.pixels());
+    }
+
+    /// The boxes that cull and frame hold every vertex.
+    static void expectHeld(const scene::Scene& scene, const scene::Scene& fixed) {
+        for (const scene::DrawItem& item : scene::drawItems(fixed)) {
+            const auto n = static_cast<std::size_t>(item.node);
+            const auto& component = std::get<scene::MeshComponent>(
+                scene.nodes[n].components[static_cast<std::size_t>(item.component)]);
+            const scene::Bounds box = scene::primitiveWorldBounds(
+                scene, scene.nodes[n], component, static_cast<std::size_t>(item.primitive));
+            scene::Bounds vertices =
+                scene::transformed(fixed.primitiveBounds[static_cast<std::size_t>(item.mesh)]
+                                                        [static_cast<std::size_t>(item.primitive)],
+                                   fixed.nodes[n].worldFromNode);
+            const float slack = 1e-5f * (1.0f + vertices.radius());
+            for (glm::length_t a = 0; a < 3; ++a) {
+                ASSERT_LE(box.low[a], vertices.low[a] + slack);
+                ASSERT_GE(box.high[a], vertices.high[a] - slack);
+            }
+        }
+    }
+
+    void compareFile(const char* relative, const char* effect) {
+        auto file = io::loadGltf(testing::sharedPath("assets/gltf") / relative);
+        ASSERT_TRUE(file.ok()) << file.error().message();
+        compareAtThreeTimes(scene::buildScene(std::move(*file)), effect);
+    }
+};
+
+io::GltfAnimationSampler line(io::AnimationPath path, std::vector<float> values) {
+    const std::size_t components = path == io::AnimationPath::Rotation ? 4 : 3;
+    return {io::Interpolation::Linear, {0.0f, 1.0f}, std::move(values), components};
+}
+
+/// A sphere that follows six joints, up its axis; two turn, one grows unevenly, one moves.
+io::GltfFile sixJoints() {
+    io::GltfPrimitive primitive = testing::sphere(32, 64);
+    constexpr int kJoints = 6;
+    for (const glm::vec3& p : primitive.positions) {
+        double weights[8] = {};
+        double sum = 0.0;
+        for (int j = 0; j < kJoints; ++j) {
+            const double d = p.y - (-1.0 + 0.4 * j);
+            weights[j] = std::exp(-4.0 * d * d);
+            sum += weights[j];
+        }
+        const auto four = [&](const double* w) {
+            return glm::vec4(glm::dvec4(w[0], w[1], w[2], w[3]) / sum);
+        };
+        primitive.joints[0].emplace_back(0, 1, 2, 3);
+        primitive.weights[0].push_back(four(weights));
+        primitive.joints[1].emplace_back(4, 5, 0, 0);
+        primitive.weights[1].push_back(four(weights + 4));
+    }
+    io::GltfFile file =
+        testing::fileOf(primitive, testing::blinnPhong({0.6, 0.4, 0.2}, glm::vec3(0.04f), 30.0f));
+    file.nodes[0].skin = 0;
+    file.nodes[0].translation = {40, 0, 0}; // a skinned mesh is where its joints are
+    io::GltfSkin skin;
+    for (int j = 0; j < kJoints; ++j) {
+        io::GltfNode node;
+        node.parent = j == 0 ? io::kNone : j;
+        node.translation = j == 0 ? glm::vec3(0, -1, 0) : glm::vec3(0, 0.4f, 0);
+        if (j > 0) {
+            file.nodes.back().children.push_back(j + 1);
+        }
+        file.nodes.push_back(node);
+        skin.joints.push_back(j + 1);
+        skin.inverseBind.push_back(glm::mat4(1.0f));
+        skin.inverseBind.back()[3] = {0.0f, 1.0f - 0.4f * static_cast<float>(j), 0.0f, 1.0f};
+    }
+    file.scenes[0].roots.push_back(1);
+    file.skins.push_back(skin);
+    io::GltfAnimation bend;
+    bend.samplers = {line(io::AnimationPath::Rotation, {0, 0, 0, 1, 0, 0, 0.5f, 0.8660254f}),
+                     line(io::AnimationPath::Rotation, {0, 0, 0, 1, 0.6f, 0, 0, 0.8f}),
+                     line(io::AnimationPath::Scale, {1, 1, 1, 2.0f, 0.5f, 1.5f}),
+                     line(io::AnimationPath::Translation, {0, 0.4f, 0, 0.3f, 0.8f, 0})};
+    bend.channels = {{3, io::AnimationPath::Rotation, 0},
+                     {4, io::AnimationPath::Rotation, 1},
+                     {2, io::AnimationPath::Scale, 2},
+                     {5, io::AnimationPath::Translation, 3}};
+    file.animations.push_back(bend);
+    return file;
+}
+
+/// A sphere with two targets; flat: every triangle on its own, as the reader makes them.
+io::GltfFile twoTargets(bool flat) {
+    io::GltfPrimitive primitive = testing::sphere(16, 24);
+    if (flat) {
+        io::GltfPrimitive split;
+        for (std::uint32_t index : primitive.indices) {
+            split.indices.push_back(static_cast<std::uint32_t>(split.positions.size()));
+            split.positions.push_back(primitive.positions[index]);
+            split.normals.push_back(primitive.normals[index]);
+        }
+        split.flatNormals = true;
+        primitive = split;
+    }
+    primitive.targets.resize(2);
+    for (const glm::vec3& p : primitive.positions) {
+        primitive.targets[0].positions.emplace_back(0.0f, p.y * p.y, 0.0f);
+        primitive.targets[1].positions.emplace_back(0.8f * p.x, 0.0f, 0.3f * p.y);
+        if (!flat) {
+            primitive.targets[0].normals.emplace_back(-p.x * p.y, 0.1f, -p.z * p.y);
+        }
+    }
+    io::GltfFile file =
+        testing::fileOf(primitive, testing::blinnPhong({0.3, 0.5, 0.6}, glm::vec3(0.04f), 20.0f));
+    io::GltfAnimation animation;
+    animation.samplers = {{io::Interpolation::Linear, {0, 1}, {0, 1, 1, -0.5f}, 2}};
+    animation.channels = {{0, io::AnimationPath::Weights, 0}};
+    file.animations.push_back(animation);
+    return file;
+}
+
+TEST_F(Deformation, SixJointsMatchTheirVertices) {
+    compareAtThreeTimes(scene::buildScene(sixJoints()), "skinning");
+}
+
+TEST_F(Deformation, TargetsMatchTheirVertices) {
+    compareAtThreeTimes(scene::buildScene(twoTargets(false)), "morphs");
+}
+
+TEST_F(Deformation, FlatTargetsMatchTheirVertices) {
+    compareAtThreeTimes(scene::buildScene(twoTargets(true)), "morphs");
+}
+
+TEST_F(Deformation, KhronosSkinsMatchTheirVertices) {
+    LODESTAR_NEEDS_SHARED();
+    compareFile("khronos/RiggedSimple/glTF-Binary/RiggedSimple.glb", "skinning");
+    compareFile("bevy/SimpleSkin/SimpleSkin.gltf", "skinning");
+}
+
+TEST_F(Deformation, KhronosMorphsMatchTheirVertices) {
+    LODESTAR_NEEDS_SHARED();
+    compareFile("khronos/AnimatedMorphCube/glTF-Binary/AnimatedMorphCube.glb", "morphs");
+    compareFile("khronos/SimpleMorph/glTF/SimpleMorph.gltf", "morphs");
+}
+
+TEST_F(Deformation, WhatIsOutOfViewIsNotUploaded) {
+    scene::Scene scene = scene::buildScene(sixJoints());
+    scene::CameraRequest away;
+    away.eye = glm::vec3(0.0f, 0.0f, 5.0f);
+    away.target = glm::vec3(0.0f, 0.0f, 9.0f);
+    auto frame = renderer(scene)->render(*scene::chooseView(scene, away, 1.0f), settings());
+    ASSERT_TRUE(frame.ok());
+    EXPECT_FALSE(frame->plan.runs("skinning"));
+}
+
+} // namespace
+} // namespace lodestar
