@@ -257,6 +257,7 @@ core::Result<LoadedScene> load(const SceneOptions& options) {
     if (auto lit = loadEnvironment(options, *file, shown, loaded); !lit) {
         return lit.error();
     }
+    loaded.sceneCount = std::max(1, static_cast<int>(file->scenes.size()));
     loaded.scene = scene::buildScene(std::move(*file), *sceneIndex);
     loaded.camera = *request;
     if (options.time && !std::isfinite(*options.time)) {

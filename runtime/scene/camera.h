@@ -7,6 +7,7 @@
 #include <string>
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "core/result.h"
@@ -27,7 +28,8 @@ struct View {
 
 /// What the user asked for; what is absent is chosen.
 struct CameraRequest {
-    std::string name; ///< a camera's or its node's name, or its number; empty: the first
+    std::string name;          ///< a camera's or its node's name, or its number; empty: the first
+    std::optional<int> number; ///< one of the file's, in order, whatever the names
     std::optional<glm::vec3> eye;     ///< metres
     std::optional<glm::vec3> target;  ///< metres
     std::optional<float> verticalFov; ///< radians
@@ -43,6 +45,9 @@ inline constexpr float kDefaultVerticalFov = 0.785398163f; ///< 45 degrees
 
 /// The names of the scene's cameras, in order.
 [[nodiscard]] std::vector<std::string> cameraNames(const Scene& scene);
+
+/// Depths of the near and far plane, metres, that hold bounds as seen from an eye.
+[[nodiscard]] glm::vec2 depthRange(const Bounds& bounds, const glm::mat4& cameraFromWorld);
 
 /// Whether a world-space box may be seen: false only if it lies wholly outside one clip plane.
 [[nodiscard]] bool mayBeSeen(const Bounds& worldBounds, const glm::mat4& clipFromWorld);
