@@ -49,10 +49,16 @@ double ringArea(double a, double b) {
     return std::sin(0.5 * (a + b)) * std::sin(0.5 * (b - a));
 }
 
-LODESTAR_VECTOR_CLONES void addScaled(double* out, const double* values, double factor,
-                                      std::size_t count) {
+constexpr std::size_t kStrip = 8; ///< degrees added at once
+
+LODESTAR_VECTOR_CLONES void addStrip(double* __restrict out, const double* __restrict steps,
+                                     const double* __restrict factors, std::size_t count) {
     for (std::size_t j = 0; j < count; ++j) {
-        out[j] += factor * values[j];
+        double sum = out[j];
+        for (std::size_t k = 0; k < kStrip; ++k) {
+            sum += factors[k] * steps[k * count + j];
+        }
+        out[j] = sum;
     }
 }
 
@@ -223,7 +229,7 @@ std::vector<double> nodeWeights(double thetaO, std::span<const double> nodes, do
 
 LegendreZones::LegendreZones(std::span<const double> edges, int degree)
     : degree_(degree), zones_(edges.size() - 1), areas_(zones_),
-      steps_((static_cast<std::size_t>(degree) + 1) * zones_) {
+      steps_((static_cast<std::size_t>(degree) + 1 + kStrip) * zones_) {
     LODESTAR_EXPECT(edges.size() >= 2 && degree >= 1, "a map has a zone and a degree");
     for (std::size_t j = 0; j < zones_; ++j) {
         areas_[j] = ringArea(edges[j], edges[j + 1]);
@@ -253,17 +259,52 @@ std::vector<double> LegendreZones::polynomials(double thetaO, int degree) {
 
 void LegendreZones::weights(std::span<const double> polynomials,
                             std::span<const double> eigenvalues, std::span<double> weights) const {
-    LODESTAR_EXPECT(polynomials.size() == eigenvalues.size() && weights.size() == zones_,
-                    "one polynomial an eigenvalue, one weight a zone");
-    const std::size_t end = std::min(eigenvalues.size(), static_cast<std::size_t>(degree_) + 1);
-    std::copy(areas_.begin(), areas_.end(), weights.begin());
-    for (std::size_t l = 1; l < end; ++l) {
-        const double factor = eigenvalues[l] * polynomials[l];
-        if (std::abs(factor) > 1e-18) {
-            addScaled(weights.data(), steps_.data() + l * zones_, factor, zones_);
+    const std::size_t terms = static_cast<std::size_t>(degree_) + 1;
+    const std::size_t rows = weights.size() / zones_;
+    LODESTAR_EXPECT(polynomials.size() == terms && eigenvalues.size() == rows * terms &&
+                        weights.size() == rows * zones_,
+                    "one polynomial and eigenvalue a degree, one weight a zone");
+    for (std::size_t row = 0; row < rows; ++row) {
+        std::copy(areas_.begin(), areas_.end(),
+                  weights.begin() + static_cast<std::ptrdiff_t>(row * zones_));
+    }
+    // Eight degrees of one row at a time, so that its weights stay in the registers' reach.
+    for (std::size_t l = 1; l < terms; l += kStrip) {
+        const std::size_t end = std::min(l + kStrip, terms);
+        for (std::size_t row = 0; row < rows; ++row) {
+            double largest = 0.0;
+            double factors[kStrip] = {};
+            for (std::size_t k = l; k < end; ++k) {
+                factors[k - l] = eigenvalues[row * terms + k] * polynomials[k];
+                largest = std::max(largest, std::abs(factors[k - l]));
+            }
+            if (largest > 1e-18) {
+                addStrip(weights.data() + row * zones_, steps_.data() + l * zones_, factors,
+                         zones_);
+            }
         }
     }
-    clipAndNormalise(weights);
+    for (std::size_t row = 0; row < rows; ++row) {
+        clipAndNormalise(weights.subspan(row * zones_, zones_));
+    }
+}
+
+std::vector<double> publishedWeights(double thetaO, int zones, int azimuths, double s) {
+    LODESTAR_EXPECT(zones >= 1 && azimuths >= 1, "there are zones and azimuths");
+    std::vector<double> weights(static_cast<std::size_t>(zones));
+    const double sine = std::sin(thetaO);
+    const double cosine = std::cos(thetaO);
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+        const double z = 1.0 - (2.0 * static_cast<double>(j) + 1.0) / zones;
+        const double across = sine * std::sqrt(1.0 - z * z);
+        double sum = 0.0;
+        for (int m = 0; m < azimuths; ++m) {
+            const double x = cosine * z + across * std::cos(kPi * (m + 0.5) / azimuths);
+            sum += x > 0.0 ? std::pow(x, s) : 0.0;
+        }
+        weights[j] = 2.0 * (s + 1.0) / (static_cast<double>(zones) * azimuths) * sum;
+    }
+    return weights;
 }
 
 } // namespace lodestar::lighting

@@ -71,6 +71,12 @@ private:
 [[nodiscard]] std::vector<double>
 weightsFromSmallSides(double thetaO, std::span<const double> edges, std::span<const double> small);
 
+/// Stone's eq. 1 with its clamp and solid angle put right: the lobe sampled at the centres of zones
+/// of equal height and at azimuths on half a circle, times 4 pi / (zones azimuths). Rows do not sum
+/// to 1 where the lobe is narrower than a zone.
+[[nodiscard]] std::vector<double> publishedWeights(double thetaO, int zones, int azimuths,
+                                                   double s);
+
 /// Legendre polynomials of the zones between edges, and rows of weights from them: what a kernel of
 /// many rows shares.
 class LegendreZones {
@@ -80,8 +86,8 @@ public:
     [[nodiscard]] int degree() const { return degree_; }
     /// P_l(cos thetaO) for l from 0 to degree.
     [[nodiscard]] static std::vector<double> polynomials(double thetaO, int degree);
-    /// Weights for r with these polynomials under these eigenvalues, clipped and normalised.
-    /// @param weights out, one a zone
+    /// Weights for r with these polynomials, clipped and normalised, a row an exponent.
+    /// @param eigenvalues [row][degree + 1]  @param weights out, [row][zone]
     void weights(std::span<const double> polynomials, std::span<const double> eigenvalues,
                  std::span<double> weights) const;
 

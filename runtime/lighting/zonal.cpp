@@ -55,11 +55,11 @@ std::vector<double> zoneEdges(const Zones& zones) {
     return edges;
 }
 
-ZonalRadiance zonalRadiance(const RadianceProfile& profile, const Zones& zones) {
-    const std::vector<double> edges = zoneEdges(zones);
+std::vector<glm::dvec3> ringMeans(const RadianceProfile& profile,
+                                  const std::vector<double>& edges) {
     const core::GaussRule rule = core::gaussLegendre(kNodes);
     const std::vector<double>& breaks = profile.breaks();
-    ZonalRadiance result{zones, {}};
+    std::vector<glm::dvec3> means;
     for (std::size_t j = 0; j + 1 < edges.size(); ++j) {
         glm::dvec3 sum(0.0);
         double areas = 0.0;
@@ -75,9 +75,13 @@ ZonalRadiance zonalRadiance(const RadianceProfile& profile, const Zones& zones) 
             areas += area;
             begin = end;
         }
-        result.means.push_back(sum / areas);
+        means.push_back(sum / areas);
     }
-    return result;
+    return means;
+}
+
+ZonalRadiance zonalRadiance(const RadianceProfile& profile, const Zones& zones) {
+    return {zones, ringMeans(profile, zoneEdges(zones))};
 }
 
 glm::dvec3 sphereMean(const ZonalRadiance& radiance) {

@@ -30,15 +30,19 @@ struct Zones {
 /// The count + 1 edges as angles from the axis, radians, from 0 to pi. @pre count as above
 [[nodiscard]] std::vector<double> zoneEdges(const Zones& zones);
 
+/// Mean radiance of the rings between edges (angles from the axis, strictly ascending) by Gauss
+/// quadrature in the angle, split at the gradient's stops. Each piece is weighted by its exact
+/// area, so that a constant is exact and the rings' energy is the gradient's to 1e-9.
+[[nodiscard]] std::vector<glm::dvec3> ringMeans(const RadianceProfile& profile,
+                                                const std::vector<double>& edges);
+
 /// Mean radiance of each zone, from the axis outwards.
 struct ZonalRadiance {
     Zones zones;
     std::vector<glm::dvec3> means;
 };
 
-/// Zone means by Gauss quadrature in the angle, split at the gradient's stops; each piece is
-/// weighted by its exact area, so that a constant is exact and the zones' energy is the gradient's
-/// to 1e-9.
+/// The means over zones, by ringMeans.
 [[nodiscard]] ZonalRadiance zonalRadiance(const RadianceProfile& profile, const Zones& zones);
 
 /// Mean radiance over the sphere: the zones' energy over 4 pi.

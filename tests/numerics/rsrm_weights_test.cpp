@@ -149,6 +149,15 @@ TEST(RsrmOracles, Eigenvalues) {
     }
 }
 
+TEST(RsrmOracles, PublishedRowSumsAtThePole) {
+    for (const auto& one : oracleCases("rsrm_paper_rowsum_pole")) {
+        const auto& in = one["in"];
+        EXPECT_NEAR(sumOf(publishedWeights(0.0, in["N"].get<int>(), 2, number(in["s"]))),
+                    number(one["out"]["sum"]), 1e-12)
+            << in;
+    }
+}
+
 // Rings of constant angle to r and Legendre series share nothing but the lobe.
 TEST(RsrmWeights, TheTwoAlgorithmsAgree) {
     for (const ZoneSpacing spacing : {ZoneSpacing::EqualHeight, ZoneSpacing::Quartic}) {

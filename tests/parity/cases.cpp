@@ -388,4 +388,33 @@ std::vector<GlslCase> surfaceCases() {
     return cases;
 }
 
+std::vector<GlslCase> rsrmCases() {
+    std::vector<GlslCase> cases;
+    const std::vector<float> exponents = allExponents();
+    Draw draw(17u);
+    for (std::size_t i = 0; i < kDrawn; ++i) {
+        GlslCase inputs{};
+        const glm::vec3 axis = draw.unit();
+        const glm::vec3 r =
+            i % 2 == 0 ? draw.unit()
+                       : glm::normalize(axis + draw.logarithmic(1e-4f, 1.0f) * draw.unit());
+        inputs[0] = glm::vec4(r, i < exponents.size() ? exponents[i] : draw.exponent());
+        inputs[1] = glm::vec4(axis, i % 3 == 2 ? 1.0f : 0.0f);
+        inputs[2] = i % 3 == 2 ? glm::vec4(256, 8, 1, 2048) : glm::vec4(170, 24, 1, 2048);
+        inputs[3] = glm::vec4(draw.uniform(-20, 20), draw.uniform(-20, 20), draw.uniform(0, 1),
+                              draw.uniform(0, 1));
+        inputs[4] =
+            glm::vec4(draw.uniform(0, 1), draw.uniform(0, 1), 0.0f, draw.logarithmic(1e-3f, 1e6f));
+        inputs[5].x = i < kValidExponents.size() ? kValidExponents[i] : draw.exponent();
+        cases.push_back(inputs);
+    }
+    const std::vector<float> chords = {0.0f, 1.0f, 0.70710678f, 0.70710683f, 1e-7f, 0.002f};
+    for (std::size_t i = 0; i < chords.size(); ++i) {
+        cases[i][3].w = chords[i];
+    }
+    cases[0][0] = glm::vec4(glm::vec3(cases[0][1]), cases[0][0].w);  // along the axis
+    cases[1][0] = glm::vec4(-glm::vec3(cases[1][1]), cases[1][0].w); // against it
+    return cases;
+}
+
 } // namespace lodestar::testing

@@ -33,5 +33,8 @@ std::vector<GlslCase> sh9Cases();         ///< p0 to p8 coefficients, p9 unit
 /// p0 width, last level, least level, floor; p1 n and exponent; p2 v and occlusion; p3 k_L; p4 F0;
 /// p5, p6 derivatives of the reflection. n.v > 0.
 std::vector<GlslCase> surfaceCases();
+/// p0 unit and any exponent; p1 axis and layout; p2 columns, rows, least and greatest exponent; p3
+/// two logarithms, a fraction, h in [0, 1]; p4 a texel; p5 a valid exponent.
+std::vector<GlslCase> rsrmCases();
 
 } // namespace lodestar::testing

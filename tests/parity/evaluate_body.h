@@ -5,6 +5,7 @@
 #include "lodestar/display.glsl"
 #include "lodestar/lobes.glsl"
 #include "lodestar/power.glsl"
+#include "lodestar/rsrm.glsl"
 #include "lodestar/sh9.glsl"
 
 #include "parity/rows.h"
@@ -61,6 +62,11 @@ struct Host3 {
 #include "parity/helpers.glsl"
 #undef LODESTAR_SPECULAR
 };
+struct RsrmHost {
+#include "lodestar/rsrm.glsl"
+#include "parity/rsrm_helpers.glsl"
+#include "parity/rsrm_rows.inc"
+};
 #undef LODESTAR_HOST_CLASS
 #undef PARITY_ROW
 
@@ -81,6 +87,10 @@ std::vector<Evaluation> evaluations() {
     addHost<Host1>(rows);
     addHost<Host2>(rows);
     addHost<Host3>(rows);
+#define PARITY_ROW(function, file, cases, tolerance, ...)                                          \
+    rows.push_back([](const GlslCase& p) { return RsrmHost().row_##function(p); });
+#include "parity/rsrm_rows.inc"
+#undef PARITY_ROW
     return rows;
 }
 

@@ -59,8 +59,8 @@ protected:
             ADD_FAILURE() << text.error().message();
             return {};
         }
-        if (row.needsHooks) {
-            *text += readText(LODESTAR_TEST_DATA "/parity/helpers.glsl");
+        if (row.helpers != nullptr) {
+            *text += readText(std::string(LODESTAR_TEST_DATA "/parity/") + row.helpers);
         }
         auto function = GlslFunction::make(device(), version, *text, row.expression);
         if (!function) {

@@ -9,15 +9,19 @@ namespace lodestar::testing {
 std::vector<ParityRow> parityRows() {
     std::vector<ParityRow> rows;
 #define PARITY_ROW(function, file, cases, tolerance, ...)                                          \
-    rows.push_back({#function, file, 0, #__VA_ARGS__, cases, tolerance, false});
+    rows.push_back({#function, file, 0, #__VA_ARGS__, cases, tolerance, nullptr});
 #include "parity/function_rows.inc"
 #undef PARITY_ROW
     for (int specular = 0; specular < kSpecularVariants; ++specular) {
 #define PARITY_ROW(function, file, cases, tolerance, ...)                                          \
-    rows.push_back({#function, file, specular, #__VA_ARGS__, cases, tolerance, true});
+    rows.push_back({#function, file, specular, #__VA_ARGS__, cases, tolerance, "helpers.glsl"});
 #include "parity/environment_rows.inc"
 #undef PARITY_ROW
     }
+#define PARITY_ROW(function, file, cases, tolerance, ...)                                          \
+    rows.push_back({#function, file, 0, #__VA_ARGS__, cases, tolerance, "rsrm_helpers.glsl"});
+#include "parity/rsrm_rows.inc"
+#undef PARITY_ROW
     return rows;
 }
 

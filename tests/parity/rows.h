@@ -27,7 +27,7 @@ struct ParityRow {
     std::vector<GlslCase> (*cases)();
     /// How far the driver may be from the exact value of the case.
     Tolerance (*tolerance)(const GlslCase& inputs, const glm::dvec4& exactValue, int specular);
-    bool needsHooks;
+    const char* helpers; ///< the file of hooks and arguments that the text needs, null for none
 };
 
 [[nodiscard]] std::vector<ParityRow> parityRows();

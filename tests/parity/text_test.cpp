@@ -125,6 +125,10 @@ TEST_F(DualTextGl, EachFileCompilesAlone) {
                         "vec4 lodestar_host_cube(int s, vec3 d, float l) { return vec4(d, l); }\n"
                         "vec3 lodestar_host_irradiance(int s, vec3 n) { return n; }\n";
                 }
+                if (text->find("lodestar_host_rsrm(Real") != std::string::npos) {
+                    *text += "vec4 lodestar_host_rsrm(float c, float r, int l) {"
+                             " return vec4(c, r, l, 1.0); }\n";
+                }
                 const auto function =
                     GlslFunction::make(device(), version, *text, "vec4(LODESTAR_PI) + p0");
                 EXPECT_TRUE(function.ok())

@@ -47,5 +47,11 @@ ToleranceFunction specularMipTolerance;
 ToleranceFunction specularTentTolerance;
 ToleranceFunction specularTolerance;
 ToleranceFunction environmentTolerance;
+ToleranceFunction rsrmRefinedColumnTolerance;
+ToleranceFunction rsrmColumnTolerance;
+ToleranceFunction rsrmRowTolerance;
+ToleranceFunction rsrmRowScaleTolerance;
+ToleranceFunction rsrmMirrorShareTolerance;
+ToleranceFunction rsrmTolerance;
 
 } // namespace lodestar::testing

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+//
+// Kernels: the zone weights of every column and exponent of a map, built once a kind of map. A bake
+// is a product of a kernel with zonal radiance.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "lighting/rsrm_layout.h"
+#include "lighting/zonal.h"
+
+namespace lodestar::lighting {
+
+/// Filtered radiance, linear in what was filtered, as planes of columns: value(exponent, channel)
+/// points at the first of its columns.
+struct RsrmBake {
+    std::vector<double> exponents;
+    std::size_t columns = 0;
+    std::vector<float> planes; ///< [exponent][channel][column]
+
+    [[nodiscard]] const float* value(std::size_t exponent, std::size_t channel) const {
+        return planes.data() + (3 * exponent + channel) * columns;
+    }
+    [[nodiscard]] float* value(std::size_t exponent, std::size_t channel) {
+        return planes.data() + (3 * exponent + channel) * columns;
+    }
+};
+
+class RsrmKernel {
+public:
+    /// Exact weights for directions at these angles from the axis and these Phong exponents.
+    /// @param thetas radians [0, pi]  @param exponents [0, 1e7]
+    RsrmKernel(const Zones& zones, const std::vector<double>& thetas,
+               std::vector<double> exponents);
+    /// Stone's sampled weights (publishedWeights), 128 azimuths.
+    [[nodiscard]] static RsrmKernel published(int zones, const std::vector<double>& thetas,
+                                              std::vector<double> exponents);
+
+    [[nodiscard]] const Zones& zones() const { return zones_; }
+    [[nodiscard]] const std::vector<double>& exponents() const { return exponents_; }
+    [[nodiscard]] std::size_t columns() const { return columns_; }
+
+    /// @pre the radiance has the kernel's zones
+    [[nodiscard]] RsrmBake bake(const ZonalRadiance& radiance) const;
+
+private:
+    RsrmKernel(const Zones& zones, std::size_t columns, std::vector<double> exponents);
+    void store(std::size_t exponent, std::size_t column, const double* weights);
+    void buildByRings(const std::vector<double>& thetas, const std::vector<double>& edges,
+                      const std::vector<std::size_t>& which);
+    void buildBySeries(const std::vector<double>& thetas, const std::vector<double>& edges,
+                       const std::vector<std::size_t>& which);
+
+    Zones zones_;
+    std::size_t columns_;
+    std::vector<double> exponents_;
+    std::vector<float> weights_; ///< [exponent][zone][column]
+};
+
+/// The kernels of a program, each built at its first use. Safe to use from several threads; a
+/// kernel that one thread builds, others wait for.
+class RsrmKernels {
+public:
+    /// The kernel that bakes a layout's maps of a kind of light.
+    [[nodiscard]] std::shared_ptr<const RsrmKernel> get(const RsrmLayout& layout, LightKind kind);
+
+private:
+    struct Entry {
+        RsrmLayout layout;
+        Zones zones;
+        std::shared_ptr<const RsrmKernel> kernel;
+    };
+    std::mutex mutex_;
+    std::vector<Entry> entries_;
+};
+
+/// The zones that a layout bakes a kind of light from: Stone's for the published ones.
+[[nodiscard]] Zones zonesFor(const RsrmLayout& layout, LightKind kind);
+
+} // namespace lodestar::lighting

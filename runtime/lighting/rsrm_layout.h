@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+//
+// How a filtered map is stored: which angle a column has, which exponent a row, and what a texel
+// holds (docs/derivations/rsrm.md says what each layout's error is).
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace lodestar::lighting {
+
+enum class RsrmColumns {
+    UniformHeight, ///< texel centres uniform in z (Stone)
+    Refined, ///< u2: fine at the axis and at the horizon, both poles on texel centres (RSRM-6)
+};
+
+enum class RsrmEncoding {
+    Unorm8,  ///< 4 bytes a texel
+    Unorm10, ///< RGB10_A2, 4 bytes
+    Half,    ///< RGBA16F, 8 bytes
+    Float,   ///< RGBA32F, 16 bytes
+};
+
+struct RsrmLayout {
+    RsrmColumns columnMap = RsrmColumns::Refined;
+    int columns = 0; ///< >= 2
+    int rows = 0;    ///< >= 2
+    RsrmEncoding encoding = RsrmEncoding::Half;
+    /// Rows fitted to sqrt(value) between them, sqrt stored; else values at the rows' exponents.
+    bool fitted = true;
+    /// Each row divided by its own scale, which a host passes beside the texture; a map that is not
+    /// fitted has one scale for all rows.
+    bool rowScales = false;
+    bool sampledWeights = false; ///< Stone's eq. 1 instead of exact weights
+    double leastExponent = 1.0;  ///< of row 0, > 0
+    double greatestExponent = 2048.0;
+    bool operator==(const RsrmLayout&) const = default;
+};
+
+/// `rsrm`: 170 x 24 RGB10_A2, 16 KB and 24 scales.
+inline constexpr RsrmLayout kRsrm{RsrmColumns::Refined, 170, 24, RsrmEncoding::Unorm10, true, true};
+/// 120 x 17 RGB10_A2, 8 KB and 17 scales.
+inline constexpr RsrmLayout kRsrmSmall{RsrmColumns::Refined,  120,  17,
+                                       RsrmEncoding::Unorm10, true, true};
+/// 128 x 16 RGBA16F, 16 KB and nothing beside: one fetch, squared.
+inline constexpr RsrmLayout kRsrmPlain{RsrmColumns::Refined, 128,  16,
+                                       RsrmEncoding::Half,   true, false};
+/// 512 x 64 RGBA32F, 512 KB: what the others are judged by on a GPU.
+inline constexpr RsrmLayout kRsrmReference{RsrmColumns::Refined, 512,  64,
+                                           RsrmEncoding::Float,  true, false};
+/// `rsrm-published`: Stone's map, 256 uniform columns, 8 rows, one 8-bit scale.
+inline constexpr RsrmLayout kRsrmPublished{
+    RsrmColumns::UniformHeight, 256, 8, RsrmEncoding::Unorm8, false, false, true};
+/// `rsrm-published-columns`: exact weights in Stone's storage.
+inline constexpr RsrmLayout kRsrmPublishedColumns{
+    RsrmColumns::UniformHeight, 256, 8, RsrmEncoding::Unorm8, false, false, false};
+
+/// Column coordinate u in [0, 1] of an angle from the axis: u2, or (1 - z) / 2 for UniformHeight.
+[[nodiscard]] double columnCoordinate(RsrmColumns map, double theta);
+
+/// The angle of each column from the axis, radians: where u = j / (columns - 1) for Refined, at
+/// texel centres for UniformHeight.
+[[nodiscard]] std::vector<double> columnAngles(RsrmColumns map, int columns);
+
+/// The exponent of a row or of a place between rows: rows are uniform in log(s + 1), in log s for
+/// UniformHeight. @param row [0, rows - 1]
+[[nodiscard]] double rowExponent(const RsrmLayout& layout, double row);
+
+/// The places between rows (in rows) that a fitted layout is baked at.
+[[nodiscard]] std::vector<double> fitPlaces(const RsrmLayout& layout);
+
+/// The exponents that a layout is baked at: its rows', or those of the fit.
+[[nodiscard]] std::vector<double> bakedExponents(const RsrmLayout& layout);
+
+/// Bytes of a layout's texels.
+[[nodiscard]] std::size_t texelBytes(const RsrmLayout& layout);
+
+} // namespace lodestar::lighting

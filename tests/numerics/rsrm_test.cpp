@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+//
+// Maps from bake to lookup: the product against double precision, and every layout against closed
+// forms between its rows and columns.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "lodestar/rsrm.glsl"
+#include "numerics/oracles.h"
+#include "numerics/rsrm_sources.h"
+
+namespace lodestar::testing {
+
+namespace {
+
+using namespace lighting;
+
+/// Kernels are built once for all tests of this program.
+RsrmKernels& kernels() {
+    static RsrmKernels cache;
+    return cache;
+}
+
+const RsrmTruth& truth(std::size_t source) {
+    static const std::array<RsrmTruth, 3> all = {RsrmTruth(kRsrmSources[0], 300, 37),
+                                                 RsrmTruth(kRsrmSources[1], 300, 37),
+                                                 RsrmTruth(kRsrmSources[2], 300, 37)};
+    return all[source];
+}
+
+std::vector<glm::vec3> black(const RsrmLayout& layout) {
+    return std::vector<glm::vec3>(static_cast<std::size_t>(layout.columns));
+}
+
+RsrmTexels mapOf(const RsrmLayout& layout, const RsrmSource& source) {
+    const auto kernel = kernels().get(layout, source.kind);
+    return encode(layout, kernel->bake(source.zonal(kernel->zones())), black(layout));
+}
+
+ZonalRadiance constant(const Zones& zones, double value) {
+    return {zones, std::vector<glm::dvec3>(static_cast<std::size_t>(zones.count),
+                                           glm::dvec3(value, 0.5 * value, 0.0))};
+}
+
+/// Worst errors of the three sources, printed.
+std::array<RsrmError, 3> errorsOf(const char* name, const RsrmLayout& layout) {
+    std::array<RsrmError, 3> errors;
+    std::printf("%-24s", name);
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+        errors[i] = measure(mapOf(layout, kRsrmSources[i]), truth(i));
+        std::printf("  %s %.4f of the peak, %.3f local", kRsrmSources[i].name, errors[i].ofPeak,
+                    errors[i].local);
+    }
+    std::printf("\n");
+    return errors;
+}
+
+} // namespace
+
+TEST(RsrmOracles, ColumnAndRow) {
+    for (const auto& one : oracleCases("rsrm_column")) {
+        const double theta = one["in"]["theta"];
+        const double sine = one["out"]["sqrt"];
+        const shader::vec3 r(static_cast<float>(std::sin(theta)), 0.0f,
+                             static_cast<float>(std::cos(theta)));
+        EXPECT_NEAR(shader::lodestar_rsrmHalfChord(r, {0.0f, 0.0f, 1.0f}), sine, 2e-7);
+        // The zones of a sun are equal in the quartic coordinate.
+        const double quartic = one["out"]["quartic"];
+        EXPECT_NEAR(std::sqrt(std::sin(0.5 * theta)), quartic, 1e-12);
+    }
+    for (const auto& one : oracleCases("rsrm_row")) {
+        const auto& in = one["in"];
+        EXPECT_NEAR(shader::lodestar_rsrmRow(in["s"].get<float>(), in["R"].get<float>(),
+                                             in["s0"].get<float>(), in["s1"].get<float>(), 1.0f),
+                    one["out"]["row"].get<double>(), 1e-5); // a float of 8 and ten roundings
+    }
+}
+
+TEST(RsrmLayouts, TextAndTablesAgreeOnColumnsAndRows) {
+    for (const RsrmLayout& layout : {kRsrm, kRsrmSmall, kRsrmPublished}) {
+        const bool published = layout.columnMap == RsrmColumns::UniformHeight;
+        const auto angles = columnAngles(layout.columnMap, layout.columns);
+        for (int j = 0; j < layout.columns; ++j) {
+            const auto h = static_cast<float>(std::sin(0.5 * angles[static_cast<std::size_t>(j)]));
+            // At the horizon sqrt |1 - 2 h^2| turns a rounding of 1.2e-7 into 3.5e-4 of a quarter.
+            EXPECT_NEAR(shader::lodestar_rsrmColumn(published ? shader::LODESTAR_RSRM_PUBLISHED
+                                                              : shader::LODESTAR_RSRM_REFINED,
+                                                    h, static_cast<float>(layout.columns)),
+                        j, 0.02)
+                << j;
+        }
+        for (int k = 0; k < layout.rows; ++k) {
+            EXPECT_NEAR(shader::lodestar_rsrmRow(static_cast<float>(rowExponent(layout, k)),
+                                                 static_cast<float>(layout.rows),
+                                                 static_cast<float>(layout.leastExponent),
+                                                 static_cast<float>(layout.greatestExponent),
+                                                 published ? 0.0f : 1.0f),
+                        k, 2e-5);
+        }
+    }
+    EXPECT_LE(texelBytes(kRsrmSmall), 8192u);
+    EXPECT_LE(texelBytes(kRsrm), 16384u);
+    EXPECT_LE(texelBytes(kRsrmPlain), 16384u);
+}
+
+// The goal: within 1e-5 of the row's peak of double precision by rings.
+TEST(RsrmBake, FloatKernelsKeepFiveDigits) {
+    for (const RsrmSource& source : kRsrmSources) {
+        const auto kernel = kernels().get(kRsrmSmall, source.kind);
+        const ZonalRadiance zonal = source.zonal(kernel->zones());
+        const std::vector<double> edges = zoneEdges(zonal.zones);
+        const std::vector<double> thetas = columnAngles(RsrmColumns::Refined, kRsrmSmall.columns);
+        const RsrmBake bake = kernel->bake(zonal);
+        for (std::size_t e = 0; e < bake.exponents.size(); e += 3) {
+            const float* row = bake.value(e, 1);
+            const auto peak = static_cast<double>(*std::max_element(row, row + bake.columns));
+            for (std::size_t i = 0; i < bake.columns; i += 7) {
+                const auto weights = ringWeights(thetas[i], edges, bake.exponents[e]);
+                double sum = 0.0;
+                for (std::size_t j = 0; j < weights.size(); ++j) {
+                    sum += weights[j] * zonal.means[j].g;
+                }
+                ASSERT_NEAR(static_cast<double>(row[i]), sum, 1e-5 * peak)
+                    << source.name << " s " << bake.exponents[e] << " column " << i;
+            }
+        }
+    }
+}
+
+TEST(RsrmBake, AConstantStaysItself) {
+    for (const LightKind kind : {LightKind::Sky, LightKind::Sun}) {
+        const auto kernel = kernels().get(kRsrmSmall, kind);
+        const RsrmBake bake = kernel->bake(constant(kernel->zones(), 3.0));
+        for (std::size_t e = 0; e < bake.exponents.size(); ++e) {
+            for (std::size_t i = 0; i < bake.columns; ++i) {
+                ASSERT_NEAR(bake.value(e, 0)[i], 3.0f, 3.0f * 2e-6f);
+                ASSERT_EQ(bake.value(e, 2)[i], 0.0f);
+            }
+        }
+        for (const RsrmLayout& layout : {kRsrm, kRsrmSmall, kRsrmPlain}) {
+            const auto own = kernels().get(layout, kind);
+            const RsrmTexels texels = encode(
+                layout, own->bake(constant(own->zones(), 3.0)),
+                std::vector<glm::vec3>(static_cast<std::size_t>(layout.columns), {3, 1.5, 0}));
+            for (const double s : {0.0, 1.0, 7.7, 64.0, 3000.0, 1e7, HUGE_VAL}) {
+                for (const double theta : {0.0, 0.3, 1.57, 3.1415926}) {
+                    const glm::vec3 got = rsrmRadiance(texels, theta, s);
+                    // 10 bits of a square root: half a step of 1/1023, doubled; a half: 2^-10.
+                    EXPECT_NEAR(got.r, 3.0f, 3.0f * 1e-3f) << s;
+                    EXPECT_NEAR(got.g, 1.5f, 1.5f * 2e-3f) << s;
+                    EXPECT_EQ(got.b, 0.0f);
+                }
+            }
+        }
+    }
+}
+
+// Linear in z: a + b z becomes a + b lambda_1 z_o. Steps of height d = 1/128 instead of the line
+// add d^2 / 12 times the lobe's density at the poles, at most s + 1 (Euler and Maclaurin).
+TEST(RsrmBake, ALinearSkyIsScaledByItsEigenvalue) {
+    const auto kernel = kernels().get(kRsrmSmall, LightKind::Sky);
+    ZonalRadiance zonal = constant(kernel->zones(), 0.0);
+    for (std::size_t j = 0; j < zonal.means.size(); ++j) {
+        zonal.means[j].g = 2.0 + 1.0 - (2.0 * static_cast<double>(j) + 1.0) / 256.0;
+    }
+    const RsrmBake bake = kernel->bake(zonal);
+    const auto thetas = columnAngles(RsrmColumns::Refined, kRsrmSmall.columns);
+    for (std::size_t e = 0; e < bake.exponents.size(); ++e) {
+        const double s = bake.exponents[e];
+        for (std::size_t i = 0; i < bake.columns; ++i) {
+            ASSERT_NEAR(static_cast<double>(bake.value(e, 1)[i]),
+                        2.0 + (s + 1.0) / (s + 2.0) * std::cos(thetas[i]),
+                        (s + 1.0) / (12.0 * 128.0 * 128.0) + 3e-6)
+                << s << " " << i;
+        }
+    }
+}
+
+TEST(RsrmBake, ABlackMapAndABrightOneAreFinite) {
+    for (const RsrmLayout& layout : {kRsrm, kRsrmPlain, kRsrmPublished}) {
+        const auto kernel = kernels().get(layout, LightKind::Sun);
+        const auto dark =
+            encode(layout, kernel->bake(constant(kernel->zones(), 0.0)), black(layout));
+        EXPECT_EQ(rsrmRadiance(dark, 0.1, 20.0), glm::vec3(0.0f));
+        const auto bright =
+            encode(layout, kernel->bake(constant(kernel->zones(), 1e9)), black(layout));
+        const glm::vec3 got = rsrmRadiance(bright, 1.0, 8.0);
+        EXPECT_NEAR(got.r, 1e9f, layout.sampledWeights ? 5e6f : 2e6f);
+        EXPECT_TRUE(std::isfinite(rsrmRadiance(bright, 0.1, std::nan("")).r));
+    }
+}
+
+TEST(RsrmKernels, OneKernelAKindWhoeverAsks) {
+    RsrmKernels cache;
+    RsrmLayout tiny = kRsrmSmall;
+    tiny.columns = 8;
+    tiny.rows = 3;
+    std::array<std::shared_ptr<const RsrmKernel>, 4> got;
+    {
+        std::vector<std::jthread> threads;
+        for (auto& one : got) {
+            threads.emplace_back([&cache, &one, &tiny] { one = cache.get(tiny, LightKind::Sky); });
+        }
+    }
+    for (const auto& one : got) {
+        EXPECT_EQ(one, got[0]);
+    }
+    EXPECT_NE(cache.get(tiny, LightKind::Sun), got[0]);
+}
+
+// The goals: 0.8 % of the peak at 16 KB, 1.3 % at 8 KB, and 35 % of the value itself wherever it is
+// at least 1 % of the peak.
+TEST(RsrmLayouts, SixteenKilobytes) {
+    for (const RsrmError& error : errorsOf("rsrm 170x24 unorm10", kRsrm)) {
+        EXPECT_LE(error.ofPeak, 0.008) << error.atTheta << " deg, s " << error.atExponent;
+        EXPECT_LE(error.local, 0.35);
+    }
+}
+
+TEST(RsrmLayouts, EightKilobytes) {
+    for (const RsrmError& error : errorsOf("small 120x17 unorm10", kRsrmSmall)) {
+        EXPECT_LE(error.ofPeak, 0.013) << error.atTheta << " deg, s " << error.atExponent;
+        EXPECT_LE(error.local, 0.35);
+    }
+}
+
+// The plain layout costs 1.1 % for the convenience of having no scales.
+TEST(RsrmLayouts, OneFetchWithoutScales) {
+    for (const RsrmError& error : errorsOf("plain 128x16 half", kRsrmPlain)) {
+        EXPECT_LE(error.ofPeak, 0.012) << error.atTheta << " deg, s " << error.atExponent;
+        EXPECT_LE(error.local, 0.35);
+    }
+}
+
+// As published: most of a sun's highlight is lost between the first texel centre and the pole.
+TEST(RsrmLayouts, ThePublishedStorageLosesTheSun) {
+    const auto errors = errorsOf("published columns", kRsrmPublishedColumns);
+    EXPECT_GT(errors[0].ofPeak, 0.8);
+    EXPECT_GT(errors[1].ofPeak, 0.4);
+    EXPECT_LT(errors[2].ofPeak, 0.03);
+    // 22 % at s = 64, on the row's own exponent: 5.07 degrees from the pole.
+    const RsrmTexels sun = mapOf(kRsrmPublishedColumns, kRsrmSources[0]);
+    const double peak = kRsrmSources[0].exact(0.0, 64.0);
+    EXPECT_NEAR(1.0 - kRsrmSources[0].exact(5.0716 * kDegree, 64.0) / peak, 0.22, 0.01);
+    EXPECT_LT(static_cast<double>(rsrmRadiance(sun, 0.0, 64.0).g), 0.9 * peak);
+}
+
+} // namespace lodestar::testing
