@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "lodestar/lobes.glsl"
+
 namespace lodestar::scene {
 namespace {
 
@@ -11,6 +13,19 @@ using plan::Feature;
 
 bool isBlack(const glm::vec3& color) {
     return color.r <= 0.0f && color.g <= 0.0f && color.b <= 0.0f;
+}
+
+/// The least exponent a material has anywhere, under the settings.
+float leastExponent(const io::GltfMaterial& material, const RenderSettings& settings) {
+    if (settings.materialOverride) {
+        return settings.materialOverride->exponent;
+    }
+    if (material.blinnPhong) {
+        return material.blinnPhong->exponentTexture.texture != io::kNone
+                   ? 0.0f
+                   : material.blinnPhong->exponent.value_or(0.0f);
+    }
+    return shader::lodestar_exponentFromRoughness(material.roughness);
 }
 
 /// Which of the two terms a material reflects anywhere on its surface.
@@ -31,6 +46,10 @@ void setTerms(plan::DrawView& draw, const io::GltfMaterial& material,
             (material.metallic < 1.0f || textured) && !isBlack(glm::vec3(material.baseColor));
         draw.glossy = true; // Fresnel's rise at grazing angles, whatever F0 is
     }
+    // Below an exponent of 1 the tent estimator's glossy lobe blends into Lambert's.
+    draw.diffuse =
+        draw.diffuse || (draw.glossy && settings.specular.kind == lighting::EstimatorKind::Tent &&
+                         leastExponent(material, settings) < 1.0f);
 }
 
 plan::DrawView drawView(const Scene& scene, const DrawItem& item, const View& view,

@@ -197,6 +197,22 @@ TEST_F(Rendering, SpecularFactorAndIndexScaleF0) {
     }
 }
 
+TEST_F(Rendering, RoughMetalAloneIsLit) {
+    // No surface is diffuse, but at exponent 0 the glossy lobe is Lambert's and reads irradiance.
+    io::GltfMaterial material;
+    material.baseColor = {0.5f, 0.25f, 1.0f, 1.0f};
+    const scene::Scene scene = scene::buildScene(testing::fileOf(testing::square(), material));
+    auto made = renderer(scene);
+    made->setEnvironment(
+        "white", lighting::cubeFromAnalytic(lighting::ConstantEnvironment{glm::dvec3(1.0)}, 16));
+    auto frame = made->render(testing::frontView(scene, 30.0f), small());
+    ASSERT_TRUE(frame.ok());
+    EXPECT_TRUE(frame->plan.runs("irradiance"));
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(frame->radiance.at(48, 48)[c], material.baseColor[c], 1e-3f);
+    }
+}
+
 TEST_F(Rendering, TextureTransformsMoveEachTexture) {
     // Left half black, right half white, moved by half a picture: what was right is left.
     for (const bool moved : {false, true}) {
