@@ -163,7 +163,7 @@ blocks::LodestarMaterial materialBlock(const io::GltfMaterial& material,
     if (values) {
         block.diffuse = {values->diffuse, values->exponent};
         block.f0 = {values->f0, 1.0f};
-    } else if (material.blinnPhong) {
+    } else if (material.blinnPhong && !material.unlit) {
         const io::GltfBlinnPhong& given = *material.blinnPhong;
         block.diffuse = {given.diffuse.value_or(glm::vec3(material.baseColor)),
                          given.exponent.value_or(0.0f)};
