@@ -135,15 +135,16 @@ LODESTAR_FN Real lodestar_texelSizeLevel(vec3 d) {
 /// The level for one fetch from tent-filtered mips whose coarse levels are round (MIP-5). Narrow
 /// lobes read tents: eq. 12 with the bias that fits them, following the texel's size. Wide ones
 /// read the levels of 16 texels and below, half a level finer: these are means over lobes, which
-/// allow for the size of each texel themselves. Between 32 and 16 texels the level rises slowly at
-/// first, as a mixture of a narrow and a much wider lobe widens.
+/// allow for the size of each texel themselves. Between 32 and 16 texels, whose lobes are further apart
+/// than a level, the level moves more slowly.
 /// @param d lookup direction, unit  @param exponent [0, 1e7]
 LODESTAR_FN Real lodestar_tentLevel(vec3 d, Real exponent, Real width, Real maxLevel) {
     Real s = lodestar_repairExponent(exponent);
     Real size = lodestar_texelSizeLevel(d);
     // By how much the tents' level lies beyond that of 32 texels: 5 + log2(3) / 2 - 0.65.
     Real beyond = LODESTAR_LITERAL(5.1425) + size - 0.5f * log2(s + 1.0f);
-    Real bias = size - LODESTAR_LITERAL(0.65) - 0.75f * max(beyond, Real(0.0f));
+    Real lowered = max(max(LODESTAR_LITERAL(0.35) * beyond, beyond - 1.0f), Real(0.0f));
+    Real bias = size - LODESTAR_LITERAL(0.65) - lowered;
     Real level = lodestar_mipLevelUnclamped(s, width) + max(bias, LODESTAR_LITERAL(-1.15));
     return clamp(level, Real(0.0f), maxLevel);
 }

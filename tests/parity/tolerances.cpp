@@ -72,11 +72,12 @@ double texelSizeError(const glm::dvec3& d) {
     return 0.75 * (log2Error(glm::dot(d / m, d / m)) + 1.45 * 8.0 * u) + u;
 }
 
-/// The size term goes in once, and less 0.75 of itself where the level is beyond 32 texels, so that
-/// it counts at most once; log2(s + 1) with 0.375; six sums and products of numbers up to 18.
+/// The size term goes in once, and less a share of itself where the level is beyond 32 texels, so
+/// that it counts at most once; log2(s + 1) goes in with a half at most; seven sums and products of
+/// numbers up to 18.
 double tentLevelError(const glm::dvec3& d, double exponent, double width) {
     return mipLevelError(exponent, width) + texelSizeError(d) +
-           0.375 * (log2Error(exponent + 1.0) + 1.5 * u) + 6.0 * 18.0 * u;
+           0.5 * (log2Error(exponent + 1.0) + 1.5 * u) + 7.0 * 18.0 * u;
 }
 
 /// px = (dx k - d dx_k) / k^2, each product off by u of |dx| |d|; 1 / k^2 by 4 u; the level is half
