@@ -4,6 +4,7 @@
 // 2.0 specification, sections 3 and 5, and KHR_lights_punctual.
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <string_view>
 
 #include "io/gltf_rules.h"
@@ -11,18 +12,20 @@
 namespace lodestar::io::detail {
 namespace {
 
-/// Whether a text is among an array's.
-bool lists(const Json& document, const char* key, const std::string& name) {
+using Names = std::set<std::string>;
+
+Names namesIn(const Json& document, const char* key) {
+    Names names;
     for (std::size_t i = 0; i < memberSize(document, key); ++i) {
-        if (document[key][i] == name) {
-            return true;
+        if (document[key][i].is_string()) {
+            names.insert(document[key][i].get<std::string>());
         }
     }
-    return false;
+    return names;
 }
 
 /// What holds everywhere: no empty array, no extension that is not declared.
-void checkEverywhere(const Json& value, const std::string& at, const Json& document,
+void checkEverywhere(const Json& value, const std::string& at, const Names& used,
                      GltfProblems& problems) {
     for (const auto& [key, entry] : value.items()) {
         const std::string here = at + "/" + key;
@@ -34,13 +37,13 @@ void checkEverywhere(const Json& value, const std::string& at, const Json& docum
         }
         if (key == "extensions" && entry.is_object()) {
             for (const auto& [name, content] : entry.items()) {
-                if (!lists(document, "extensionsUsed", name)) {
+                if (used.count(name) == 0) {
                     problems.repaired("extension is not named in extensionsUsed",
                                       here + "/" + name);
                 }
             }
         }
-        checkEverywhere(entry, here, document, problems);
+        checkEverywhere(entry, here, used, problems);
     }
 }
 
@@ -60,15 +63,16 @@ void checkDocument(const Json& document, GltfProblems& problems) {
             checkDuplicates(document[key], std::string("/") + key, problems);
         }
     }
+    const Names used = namesIn(document, "extensionsUsed");
     for (std::size_t i = 0; i < memberSize(document, "extensionsRequired"); ++i) {
         const Json& name = document["extensionsRequired"][i];
-        if (name.is_string() && !lists(document, "extensionsUsed", name.get<std::string>())) {
+        if (name.is_string() && used.count(name.get<std::string>()) == 0) {
             problems.repaired("required extension is not named in extensionsUsed",
                               pointer("/extensionsRequired", i));
         }
     }
-    if (lists(document, "extensionsUsed", "KHR_mesh_quantization") &&
-        !lists(document, "extensionsRequired", "KHR_mesh_quantization")) {
+    if (used.count("KHR_mesh_quantization") > 0 &&
+        namesIn(document, "extensionsRequired").count("KHR_mesh_quantization") == 0) {
         problems.repaired("KHR_mesh_quantization must be required where it is used",
                           "/extensionsUsed");
     }
@@ -268,7 +272,7 @@ void checkBufferUris(const Json& document, GltfProblems& problems) {
 } // namespace
 
 void checkRules(const Json& document, const std::vector<Bytes>& buffers, GltfProblems& problems) {
-    checkEverywhere(document, "", document, problems);
+    checkEverywhere(document, "", namesIn(document, "extensionsUsed"), problems);
     for (const auto check : {checkDocument, checkMaterials, checkTexturesAndImages, checkNodes,
                              checkLights, checkBufferUris, checkMeshRules}) {
         check(document, problems);
