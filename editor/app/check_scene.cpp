@@ -103,7 +103,8 @@ void describeScene(const io::GltfFile& scene, Json& json) {
     const MeshCounts counts = countMeshes(scene);
     json["scenes"] = scene.scenes.size();
     json["sceneNames"] = names(scene.scenes);
-    json["defaultScene"] = scene.defaultScene == io::kNone ? Json(nullptr) : scene.defaultScene;
+    json["defaultScene"] =
+        scene.defaultScene == io::kNone ? Json(nullptr) : Json(scene.defaultScene);
     json["nodes"] = scene.nodes.size();
     json["meshes"] = scene.meshes.size();
     json["primitives"] = counts.primitives;

@@ -237,8 +237,8 @@ void checkDataRules(const Json& document, const std::vector<Bytes>& buffers,
         if (accessor.contains("bufferView") || accessor.contains("sparse")) {
             checkBound(data, accessor, "min", at, problems);
             checkBound(data, accessor, "max", at, problems);
+            checkAsked(data, asked[i], at, problems);
         }
-        checkAsked(data, asked[i], at, problems);
     }
 }
 

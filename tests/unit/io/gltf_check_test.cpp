@@ -3,7 +3,7 @@
 // Files with many problems: every one is named at its pointer, and loading stops at the first.
 #include <set>
 
-#include "io/io_support.h"
+#include "unit/io/io_support.h"
 
 namespace lodestar {
 namespace {
