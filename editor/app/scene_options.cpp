@@ -279,6 +279,7 @@ core::Result<LoadedScene> load(const SceneOptions& options) {
 }
 
 core::Result<void> LoadedScene::poseAt(double seconds) {
+    time = seconds;
     scene::pose(scene, animation, seconds);
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
     auto chosen = scene::chooseView(scene, camera, aspect);

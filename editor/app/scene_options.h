@@ -45,8 +45,8 @@ struct LoadedScene {
     scene::RenderSettings settings;
     io::LoadedEnvironment environment;
     std::string environmentName;
-    scene::CameraRequest camera;
     int animation = scene::kRestPose; ///< that the scene is posed by
+    double time = 0.0;                ///< seconds into it
 
     /// Poses the scene and looks at it anew, for a camera that moves. @param seconds finite
     [[nodiscard]] core::Result<void> poseAt(double seconds);

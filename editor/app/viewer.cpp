@@ -57,6 +57,8 @@ core::Result<std::unique_ptr<Viewer>> Viewer::make(gl::Device& device, LoadedSce
         return document.error();
     }
     viewer->document_ = std::move(*document);
+    viewer->animation_ = loaded.animation;
+    viewer->time_ = loaded.time;
     return viewer;
 }
 
@@ -130,6 +132,9 @@ void Viewer::openScene(const std::string& path, int sceneIndex) {
     sceneIndex_ = index;
     sceneCount_ = count;
     cameraIndex_ = 0;
+    animation_ = scene::kRestPose;
+    time_ = 0.0;
+    playing_ = false;
     request_ = {};
     pose_.reset();
     say(same ? "read again: " + path : path, false);
@@ -160,7 +165,7 @@ bool Viewer::wantsFrame() const {
 }
 
 double Viewer::patience() const {
-    if (wantsFrame() || flyDirection() != glm::vec3(0.0f)) {
+    if (wantsFrame() || playing_ || flyDirection() != glm::vec3(0.0f)) {
         return 0.0;
     }
     return coarse_ ? kMotionSeconds : std::numeric_limits<double>::infinity();
@@ -238,6 +243,7 @@ OverlayText Viewer::text() const {
                   "glossy    " + lighting::estimatorName(settings_.specular),
                   "diffuse   " + lighting::estimatorName(settings_.diffuse),
                   "exposure  " + formatted("%+.2f EV", exposure_),
+                  animationText(),
                   timeText(),
                   "F1 help"};
     text.message = message_;

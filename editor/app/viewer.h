@@ -16,6 +16,7 @@
 #include "app/view_keys.h"
 #include "app/view_overlay.h"
 #include "platform/window.h"
+#include "scene/animation.h"
 #include "scene/camera_controller.h"
 
 namespace lodestar::app {
@@ -80,6 +81,11 @@ private:
     void chooseCamera(int step);
     void chooseScene(int step);
     void chooseEstimator(const KeyBinding& binding);
+    void play();
+    void scrub(double seconds);
+    void chooseAnimation(int animation);
+    void advanceAnimation(double seconds);
+    [[nodiscard]] std::string animationText() const;
     void drag(float x, float y);
     void wheel(float steps);
     void saveScreenshot();
@@ -105,6 +111,9 @@ private:
     int sceneIndex_ = -1; ///< -1: the file's default
     int sceneCount_ = 1;
     int cameraIndex_ = 0;
+    int animation_ = scene::kRestPose; ///< that the scene is posed by
+    double time_ = 0.0;                ///< seconds into it
+    bool playing_ = false;
     std::optional<scene::CameraPose> pose_; ///< once moved by hand
 
     std::set<platform::Key> keys_;

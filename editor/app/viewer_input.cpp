@@ -35,6 +35,9 @@ struct Overloaded : Visitors... {
 template <class... Visitors>
 Overloaded(Visitors...) -> Overloaded<Visitors...>;
 
+/// Of a key that scrubs, seconds.
+constexpr double kScrubStep = 0.05;
+
 } // namespace
 
 void Viewer::handle(const platform::Event& event) {
@@ -118,6 +121,7 @@ glm::vec3 Viewer::flyDirection() const {
 }
 
 void Viewer::advance(double seconds) {
+    advanceAnimation(seconds);
     if (const glm::vec3 direction = flyDirection(); direction != glm::vec3(0.0f)) {
         const float metres = scene::flySpeed(document_.bounds, held(Key::Shift)) *
                              static_cast<float>(std::min(seconds, kLongestStep));
@@ -130,7 +134,8 @@ void Viewer::press(const platform::KeyEvent& event) {
     if (!binding) {
         return;
     }
-    const bool repeats = binding->action == Action::Brighter || binding->action == Action::Darker;
+    const bool repeats = binding->action == Action::Brighter || binding->action == Action::Darker ||
+                         binding->action == Action::Earlier || binding->action == Action::Later;
     if (!event.repeat || repeats) {
         perform(*binding);
     }
@@ -156,6 +161,16 @@ void Viewer::perform(const KeyBinding& binding) {
         break;
     case Action::PreviousScene:
         chooseScene(-1);
+        break;
+    case Action::Play:
+        play();
+        break;
+    case Action::Earlier:
+    case Action::Later:
+        scrub(binding.action == Action::Later ? kScrubStep : -kScrubStep);
+        break;
+    case Action::NextAnimation:
+        chooseAnimation(animation_ + 1);
         break;
     case Action::Brighter:
     case Action::Darker:
