@@ -69,6 +69,15 @@ void Framebuffer::begin() {
         static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
 }
 
+void beginWindowPass(Device& device, int x, int y, int width, int height) {
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(x, y, width, height);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    ++device.counters().passes;
+    device.counters().texelsWritten +=
+        static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+}
+
 core::Image Framebuffer::read() const {
     core::Image image(width_, height_, 4);
     glBindFramebuffer(GL_FRAMEBUFFER, id_);

@@ -25,6 +25,7 @@ public:
 
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
+    [[nodiscard]] const Texture& color() const { return color_; }
 
 private:
     Device* device_ = nullptr;
@@ -34,5 +35,9 @@ private:
     Texture color_;
     Texture depth_;
 };
+
+/// Binds the window's own framebuffer, 0, with a viewport from the lower left, not cleared. Counts
+/// a pass.
+void beginWindowPass(Device& device, int x, int y, int width, int height);
 
 } // namespace lodestar::gl

@@ -31,16 +31,6 @@ std::string nameOf(const PlacedCamera& placed) {
     return placed.camera->name.empty() ? placed.node->name : placed.camera->name;
 }
 
-/// Depth planes that hold the scene's bounds as seen from the eye.
-glm::vec2 depthRange(const Scene& scene, const glm::mat4& cameraFromWorld) {
-    const Bounds bounds = scene.worldBounds();
-    const float radius = std::max(bounds.radius(), 1e-4f);
-    const glm::vec3 center = bounds.empty() ? glm::vec3(0.0f) : bounds.center();
-    const float depth = -glm::vec3(cameraFromWorld * glm::vec4(center, 1.0f)).z;
-    const float farPlane = std::max(depth + 1.01f * radius, 1e-3f);
-    return {std::max(depth - 1.01f * radius, farPlane * 1e-4f), farPlane};
-}
-
 View lookAt(const Scene& scene, const glm::vec3& eye, const glm::vec3& target, float verticalFov,
             float aspect) {
     glm::vec3 forward = target - eye;
@@ -51,7 +41,7 @@ View lookAt(const Scene& scene, const glm::vec3& eye, const glm::vec3& target, f
     View view;
     view.position = eye;
     view.cameraFromWorld = glm::lookAt(eye, eye + forward, up);
-    const glm::vec2 planes = depthRange(scene, view.cameraFromWorld);
+    const glm::vec2 planes = depthRange(scene.worldBounds(), view.cameraFromWorld);
     view.clipFromCamera = glm::perspective(verticalFov, aspect, planes.x, planes.y);
     return view;
 }
@@ -110,7 +100,8 @@ View fromCamera(const Scene& scene, const PlacedCamera& placed, float aspect,
         const float farPlane =
             std::isfinite(camera.farPlane)
                 ? camera.farPlane
-                : std::max(depthRange(scene, view.cameraFromWorld).y, camera.nearPlane * 2.0f);
+                : std::max(depthRange(scene.worldBounds(), view.cameraFromWorld).y,
+                           camera.nearPlane * 2.0f);
         view.clipFromCamera = glm::perspective(verticalFov.value_or(camera.verticalFov), aspect,
                                                camera.nearPlane, farPlane);
     } else {
@@ -123,6 +114,14 @@ View fromCamera(const Scene& scene, const PlacedCamera& placed, float aspect,
 }
 
 } // namespace
+
+glm::vec2 depthRange(const Bounds& bounds, const glm::mat4& cameraFromWorld) {
+    const float radius = std::max(bounds.radius(), 1e-4f);
+    const glm::vec3 center = bounds.empty() ? glm::vec3(0.0f) : bounds.center();
+    const float depth = -glm::vec3(cameraFromWorld * glm::vec4(center, 1.0f)).z;
+    const float farPlane = std::max(depth + 1.01f * radius, 1e-3f);
+    return {std::max(depth - 1.01f * radius, farPlane * 1e-4f), farPlane};
+}
 
 std::vector<std::string> cameraNames(const Scene& scene) {
     std::vector<std::string> names;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "core/result.h"
@@ -43,6 +44,9 @@ inline constexpr float kDefaultVerticalFov = 0.785398163f; ///< 45 degrees
 
 /// The names of the scene's cameras, in order.
 [[nodiscard]] std::vector<std::string> cameraNames(const Scene& scene);
+
+/// Depths of the near and far plane, metres, that hold bounds as seen from an eye.
+[[nodiscard]] glm::vec2 depthRange(const Bounds& bounds, const glm::mat4& cameraFromWorld);
 
 /// Whether a world-space box may be seen: false only if it lies wholly outside one clip plane.
 [[nodiscard]] bool mayBeSeen(const Bounds& worldBounds, const glm::mat4& clipFromWorld);

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <span>
 
 #include <epoxy/gl.h>
@@ -15,6 +16,7 @@
 #include "scene/draw_list.h"
 #include "scene/gpu_environment.h"
 #include "scene/gpu_scene.h"
+#include "scene/presenter.h"
 
 namespace lodestar::scene {
 namespace {
@@ -176,13 +178,20 @@ struct Renderer::State {
     gl::Framebuffer target;
     std::map<gl::Defines, gl::Program> programs;
     gl::Program backdrop;
+    std::optional<Presenter> presenter;
 
     GpuEnvironment environment;
 
     core::Result<void> compilePrograms(const plan::EffectPlan& plan,
                                        const RenderSettings& settings);
     core::Result<const gl::Program*> program(const gl::Defines& defines);
-    core::Result<void> drawPicture(const View& view, const RenderSettings& settings, Frame& frame);
+    /// What becomes of a tile that `target` holds: x, y, width, height in pixels from the top left.
+    using TileSink = std::function<void(const glm::ivec4&)>;
+    /// All of a frame but what becomes of its pixels.
+    core::Result<Frame> drawFrame(const View& view, const RenderSettings& settings,
+                                  const std::function<TileSink(Frame&)>& sinkFor);
+    core::Result<void> drawPicture(const View& view, const RenderSettings& settings, Frame& frame,
+                                   const TileSink& sink);
     void drawTile(const plan::EffectPlan& plan, const RenderSettings& settings,
                   const blocks::LodestarFrame& block);
     void drawBackdrop();
@@ -318,13 +327,12 @@ void Renderer::setEnvironment(std::string source, lighting::Cubemap base) {
 }
 
 core::Result<void> Renderer::State::drawPicture(const View& view, const RenderSettings& settings,
-                                                Frame& frame) {
+                                                Frame& frame, const TileSink& sink) {
     blocks::LodestarFrame block{};
     block.cameraPosition =
         view.perspective ? glm::vec4(view.position, 1.0f) : glm::vec4(view.towardsViewer, 0.0f);
     environment.describe(settings, block);
     setLights(scene, block);
-    frame.radiance = core::Image(settings.width, settings.height, 4);
     const int side = std::max(1, kTileSide / settings.samplesPerSide);
     for (int y = 0; y < settings.height; y += side) {
         for (int x = 0; x < settings.width; x += side) {
@@ -345,22 +353,19 @@ core::Result<void> Renderer::State::drawPicture(const View& view, const RenderSe
             drawTile(frame.plan, settings, block);
             timer.end();
             frame.timesMs["draw"] += timer.milliseconds();
-            const auto start = Clock::now();
-            frame.repairedPixels +=
-                resolve(target.read(), settings.samplesPerSide, {x, y}, frame.radiance);
-            frame.timesMs["read"] += millisecondsSince(start);
+            sink(tile);
         }
     }
     return {};
 }
 
-core::Result<Frame> Renderer::render(const View& view, const RenderSettings& settings) {
-    State& state = *state_;
-    LODESTAR_EXPECT(!state.environment.empty(), "an environment is set before a frame is drawn");
+core::Result<Frame> Renderer::State::drawFrame(const View& view, const RenderSettings& settings,
+                                               const std::function<TileSink(Frame&)>& sinkFor) {
+    LODESTAR_EXPECT(!environment.empty(), "an environment is set before a frame is drawn");
     LODESTAR_EXPECT(settings.width > 0 && settings.height > 0 && settings.samplesPerSide > 0,
                     "a picture has a size");
     Frame frame;
-    const gl::WorkCounters before = state.device.counters();
+    const gl::WorkCounters before = device.counters();
     const auto timed = [&frame](const char* step, auto&& work) {
         const auto start = Clock::now();
         auto result = work();
@@ -368,24 +373,56 @@ core::Result<Frame> Renderer::render(const View& view, const RenderSettings& set
         return result;
     };
     frame.plan = timed("plan", [&] {
-        plan::PlanInput input = planInput(state.scene, view, settings, state.environment.view());
-        input.alreadyPrepared = state.environment.prepared();
+        plan::PlanInput input = planInput(scene, view, settings, environment.view());
+        input.alreadyPrepared = environment.prepared();
         return plan::plan(input);
     });
-    auto prepared = timed(
-        "prepare", [&] { return state.environment.prepare(state.device, frame.plan.prepare); });
+    auto prepared =
+        timed("prepare", [&] { return environment.prepare(device, frame.plan.prepare); });
     if (!prepared) {
         return prepared.error();
     }
-    auto compiled = timed("compile", [&] { return state.compilePrograms(frame.plan, settings); });
+    auto compiled = timed("compile", [&] { return compilePrograms(frame.plan, settings); });
     if (!compiled) {
         return compiled.error();
     }
-    if (auto drawn = state.drawPicture(view, settings, frame); !drawn) {
+    if (auto drawn = drawPicture(view, settings, frame, sinkFor(frame)); !drawn) {
         return drawn.error();
     }
-    frame.counters = gl::difference(state.device.counters(), before);
+    frame.counters = gl::difference(device.counters(), before);
     return frame;
+}
+
+core::Result<Frame> Renderer::render(const View& view, const RenderSettings& settings) {
+    State& state = *state_;
+    return state.drawFrame(view, settings, [&](Frame& frame) -> State::TileSink {
+        frame.radiance = core::Image(settings.width, settings.height, 4);
+        return [&](const glm::ivec4& tile) {
+            const auto start = Clock::now();
+            frame.repairedPixels += resolve(state.target.read(), settings.samplesPerSide,
+                                            {tile.x, tile.y}, frame.radiance);
+            frame.timesMs["read"] += millisecondsSince(start);
+        };
+    });
+}
+
+core::Result<Frame> Renderer::draw(const View& view, const RenderSettings& settings,
+                                   float exposure) {
+    State& state = *state_;
+    LODESTAR_EXPECT(exposure > 0.0f, "an exposure is a factor above 0");
+    if (!state.presenter) {
+        auto presenter = Presenter::make(state.device);
+        if (!presenter) {
+            return presenter.error();
+        }
+        state.presenter.emplace(std::move(*presenter));
+    }
+    return state.drawFrame(view, settings, [&](Frame&) -> State::TileSink {
+        return [&](const glm::ivec4& tile) {
+            const glm::ivec2 origin(tile.x, settings.height - tile.y - tile.w);
+            state.presenter->show(state.target, origin, settings.samplesPerSide, exposure);
+        };
+    });
 }
 
 } // namespace lodestar::scene

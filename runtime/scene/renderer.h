@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The built-in forward renderer: plans a frame, makes ready what the plan says, draws, reads back.
+// The built-in forward renderer: plans a frame, makes ready what the plan says, draws, reads back
+// or shows the frame in a window.
 #pragma once
 
 #include <map>
@@ -67,6 +68,12 @@ public:
 
     /// @errors NoOpenGl, Internal (a shader that the driver refuses)
     [[nodiscard]] core::Result<Frame> render(const View& view, const RenderSettings& settings);
+
+    /// The same picture, shown in the context's own framebuffer 0 as a PNG would hold it, and not
+    /// read back: Frame::radiance is empty and repaired pixels are not counted.
+    /// @param exposure factor on radiance, > 0
+    [[nodiscard]] core::Result<Frame> draw(const View& view, const RenderSettings& settings,
+                                           float exposure);
 
 private:
     struct State;
