@@ -9,6 +9,7 @@
 namespace lodestar::app {
 
 void addRender(CLI::App& app, int& status);
+void addView(CLI::App& app, int& status);
 void addPlan(CLI::App& app, int& status);
 void addSample(CLI::App& app, int& status);
 void addCheck(CLI::App& app, int& status);

@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
     app.footer("Exit status: 0 done, 1 internal error, 2 wrong usage, 3 an input was refused,\n"
                "4 no usable OpenGL, 5 an output could not be written.");
     app::addRender(app, status);
+    app::addView(app, status);
     app::addPlan(app, status);
     app::addSample(app, status);
     app::addCheck(app, status);

@@ -7,11 +7,11 @@
 
 #include "app/command.h"
 #include "app/commands.h"
+#include "app/display_image.h"
 #include "app/plan_json.h"
 #include "app/scene_options.h"
 #include "io/file.h"
 #include "io/image_file.h"
-#include "lodestar/display.glsl"
 #include "platform/headless_context.h"
 
 namespace lodestar::app {
@@ -48,21 +48,6 @@ std::string framePath(const std::string& output, int frame) {
     char number[16];
     std::snprintf(number, sizeof number, "%04d", frame);
     return output.substr(0, at) + number + output.substr(at + 4);
-}
-
-/// Premultiplied linear radiance to encoded, unassociated display values.
-core::Image toDisplay(const core::Image& radiance, double exposure) {
-    core::Image display = radiance;
-    const auto factor = static_cast<float>(std::exp2(exposure));
-    for (std::size_t i = 0; i < display.pixels().size(); i += 4) {
-        float* pixel = &display.pixels()[i];
-        const float alpha = pixel[3];
-        for (int c = 0; c < 3; ++c) {
-            const float value = alpha > 0.0f ? pixel[c] / alpha * factor : 0.0f;
-            pixel[c] = shader::lodestar_srgbFromLinear(shader::lodestar_filmic(value));
-        }
-    }
-    return display;
 }
 
 nlohmann::json stats(const std::vector<scene::Frame>& frames, const gl::WorkCounters& total,

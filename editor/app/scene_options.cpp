@@ -193,6 +193,7 @@ core::Result<LoadedScene> load(const SceneOptions& options) {
     if (!request) {
         return request.error();
     }
+    loaded.camera = *request;
     loaded.environmentName = options.environment.empty() ? kClearSky : options.environment;
     if (options.environment.empty()) {
         loaded.environment.base =
@@ -208,6 +209,7 @@ core::Result<LoadedScene> load(const SceneOptions& options) {
     if (!file) {
         return core::inFile(file.error(), options.scene);
     }
+    loaded.sceneCount = std::max(1, static_cast<int>(file->scenes.size()));
     loaded.scene = scene::buildScene(std::move(*file));
     const float aspect =
         static_cast<float>(loaded.settings.width) / static_cast<float>(loaded.settings.height);

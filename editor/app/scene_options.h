@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The options that `render` and `plan` share: scene, environment, camera, estimators.
+// The options that `render`, `view` and `plan` share: scene, environment, camera, estimators.
 #pragma once
 
 #include <string>
@@ -34,6 +34,8 @@ void addSceneOptions(CLI::App& command, SceneOptions& options);
 /// What the words mean, files loaded.
 struct LoadedScene {
     scene::Scene scene;
+    scene::CameraRequest camera;
+    int sceneCount = 1; ///< of the file, at least 1
     scene::View view;
     scene::RenderSettings settings;
     io::LoadedEnvironment environment;

@@ -143,6 +143,10 @@ core::Result<View> chooseView(const Scene& scene, const CameraRequest& request, 
         return lookAt(scene, eye, target, fov, aspect);
     }
     const std::vector<PlacedCamera> cameras = placedCameras(scene);
+    if (request.number && *request.number < static_cast<int>(cameras.size())) {
+        return fromCamera(scene, cameras[static_cast<std::size_t>(*request.number)], aspect,
+                          request.verticalFov);
+    }
     if (request.name.empty()) {
         return cameras.empty() ? frame(scene, fov, aspect)
                                : fromCamera(scene, cameras.front(), aspect, request.verticalFov);

@@ -28,7 +28,8 @@ struct View {
 
 /// What the user asked for; what is absent is chosen.
 struct CameraRequest {
-    std::string name; ///< a camera's or its node's name, or its number; empty: the first
+    std::string name;          ///< a camera's or its node's name, or its number; empty: the first
+    std::optional<int> number; ///< one of the file's, in order, whatever the names
     std::optional<glm::vec3> eye;     ///< metres
     std::optional<glm::vec3> target;  ///< metres
     std::optional<float> verticalFov; ///< radians

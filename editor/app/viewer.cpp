@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: MIT
+#include "app/viewer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+
+#include "app/command.h"
+#include "app/display_image.h"
+#include "app/plan_json.h"
+#include "io/gltf.h"
+#include "io/image_file.h"
+
+namespace lodestar::app {
+namespace {
+
+/// For so long after the last motion frames may be coarse, seconds.
+constexpr double kMotionSeconds = 0.2;
+/// A still frame slower than this is drawn with one sample a pixel while the camera moves.
+constexpr double kSmoothMs = 25.0;
+constexpr std::size_t kReadings = 15;
+constexpr std::size_t kFramesKept = 10000;
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+std::string formatted(const char* format, double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+std::string nameOf(const std::string& path) {
+    return std::filesystem::path(path).filename().string();
+}
+
+} // namespace
+
+Viewer::Viewer(gl::Device& device, const ViewerOptions& options)
+    : device_(&device), options_(options), exposure_(options.exposure) {}
+
+core::Result<std::unique_ptr<Viewer>> Viewer::make(gl::Device& device, LoadedScene loaded,
+                                                   const ViewerOptions& options) {
+    std::unique_ptr<Viewer> viewer(new Viewer(device, options));
+    viewer->environment_ = std::move(loaded.environment.base);
+    viewer->environmentName_ = loaded.environmentName;
+    viewer->settings_ = loaded.settings;
+    viewer->request_ = loaded.camera;
+    viewer->sceneCount_ = loaded.sceneCount;
+    auto document = viewer->documentOf(options.scene.scene, std::move(loaded.scene));
+    if (!document) {
+        return document.error();
+    }
+    viewer->document_ = std::move(*document);
+    return viewer;
+}
+
+core::Result<Viewer::Document> Viewer::documentOf(std::string path, scene::Scene scene) {
+    Document document{
+        std::move(path), std::make_unique<scene::Scene>(std::move(scene)), nullptr, {}};
+    auto renderer = scene::Renderer::make(*device_, *document.scene);
+    if (!renderer) {
+        return core::inFile(renderer.error(), document.path);
+    }
+    document.renderer = std::move(*renderer);
+    document.renderer->setEnvironment(environmentName_, environment_);
+    document.bounds = document.scene->worldBounds();
+    return document;
+}
+
+void Viewer::setSize(int width, int height, float contentScale) {
+    if (width != settings_.width || height != settings_.height || contentScale != contentScale_) {
+        settings_.width = width;
+        settings_.height = height;
+        contentScale_ = contentScale;
+        changed(true);
+    }
+}
+
+float Viewer::aspect() const {
+    return static_cast<float>(std::max(settings_.width, 1)) /
+           static_cast<float>(std::max(settings_.height, 1));
+}
+
+scene::View Viewer::view() const {
+    if (pose_) {
+        return scene::viewFromPose(*pose_, document_.bounds, aspect());
+    }
+    auto chosen = scene::chooseView(*document_.scene, request_, aspect());
+    return chosen ? *chosen : *scene::chooseView(*document_.scene, {}, aspect());
+}
+
+void Viewer::changed(bool measureAgain) {
+    framesWanted_ = std::max(framesWanted_, measureAgain ? 2 : 1);
+    if (measureAgain) {
+        measured_ = false;
+        readings_.clear();
+    }
+}
+
+void Viewer::say(std::string message, bool isError) {
+    message_ = std::move(message);
+    messageIsError_ = isError;
+    changed(false);
+}
+
+void Viewer::openScene(const std::string& path, int sceneIndex) {
+    const bool same = path == document_.path;
+    auto file = io::loadGltf(path, {same ? options_.scene.assetRoot : std::string(), true});
+    if (!file) {
+        say(core::inFile(file.error(), path).message(), true);
+        return;
+    }
+    const int count = std::max(1, static_cast<int>(file->scenes.size()));
+    const int index = sceneIndex >= 0 ? sceneIndex % count : -1;
+    const bool numbered = !file->scenes.empty();
+    scene::Scene built = scene::buildScene(std::move(*file), numbered ? index : -1);
+    warn(built.warnings, path);
+    auto document = documentOf(path, std::move(built));
+    if (!document) {
+        say(document.error().message(), true);
+        return;
+    }
+    document_ = std::move(*document);
+    sceneIndex_ = index;
+    sceneCount_ = count;
+    cameraIndex_ = 0;
+    request_ = {};
+    pose_.reset();
+    say(same ? "read again: " + path : path, false);
+    changed(true);
+}
+
+void Viewer::openEnvironment(const std::string& path) {
+    auto loaded = io::loadEnvironment(path, options_.scene.cubeWidth);
+    if (!loaded) {
+        say(core::inFile(loaded.error(), path).message(), true);
+        return;
+    }
+    warn(loaded->warnings, path);
+    environment_ = std::move(loaded->base);
+    environmentName_ = path;
+    document_.renderer->setEnvironment(environmentName_, environment_);
+    say("lit by " + path, false);
+    changed(true);
+}
+
+bool Viewer::moving() const {
+    const double since = std::chrono::duration<double>(Clock::now() - lastMotion_).count();
+    return since < kMotionSeconds;
+}
+
+bool Viewer::wantsFrame() const {
+    return framesWanted_ > 0 || (coarse_ && !moving());
+}
+
+double Viewer::patience() const {
+    if (wantsFrame() || flyDirection() != glm::vec3(0.0f)) {
+        return 0.0;
+    }
+    return coarse_ ? kMotionSeconds : std::numeric_limits<double>::infinity();
+}
+
+core::Result<void> Viewer::drawFrame() {
+    scene::RenderSettings settings = settings_;
+    const bool coarse = moving() && fineMs_ > kSmoothMs && options_.samplesPerSide > 1;
+    settings.samplesPerSide = coarse ? 1 : options_.samplesPerSide;
+    auto frame =
+        document_.renderer->draw(view(), settings, static_cast<float>(std::exp2(exposure_)));
+    if (!frame && framesDrawn_ == 0) {
+        return frame.error();
+    }
+    framesWanted_ = std::max(framesWanted_ - 1, 0);
+    coarse_ = coarse;
+    if (frame) {
+        note(*frame, settings.samplesPerSide);
+    } else {
+        framesWanted_ = 0;
+        message_ = frame.error().message();
+        messageIsError_ = true;
+    }
+    if (const OverlayText shown = text();
+        !shown.lines.empty() || shown.help || !shown.message.empty()) {
+        overlay_.draw(shown, settings_.width, settings_.height, contentScale_);
+    }
+    return {};
+}
+
+void Viewer::note(const scene::Frame& frame, int samplesPerSide) {
+    const double ms = frame.timesMs.at("draw");
+    const int samples = samplesPerSide * samplesPerSide;
+    ++framesDrawn_;
+    if (drawn_.size() < kFramesKept) {
+        drawn_.push_back(
+            {std::chrono::duration<double>(Clock::now() - start_).count(), ms, samples});
+    }
+    if (samplesPerSide == options_.samplesPerSide) {
+        fineMs_ = ms;
+    }
+    if (samples != readingSamples_) {
+        readingSamples_ = samples;
+        readings_.clear();
+        measured_ = false;
+    }
+    // The first reading after a change holds what the driver put off until then.
+    if (measured_) {
+        readings_.push_back(ms);
+        if (readings_.size() > kReadings) {
+            readings_.erase(readings_.begin());
+        }
+    }
+    measured_ = true;
+}
+
+std::string Viewer::timeText() const {
+    const std::string size = std::to_string(settings_.width) + " x " +
+                             std::to_string(settings_.height) + ", " +
+                             std::to_string(readingSamples_) +
+                             (readingSamples_ == 1 ? " sample a pixel" : " samples a pixel");
+    return (readings_.empty() ? std::string("- ms") : formatted("%.2f ms", median(readings_))) +
+           " on the GPU, " + size;
+}
+
+OverlayText Viewer::text() const {
+    OverlayText text;
+    text.help = help_;
+    if (!textShown_ && !help_) {
+        return text;
+    }
+    text.lines = {nameOf(document_.path) +
+                      (document_.scene->name.empty() ? "" : ": " + document_.scene->name),
+                  "light     " + nameOf(environmentName_),
+                  "glossy    " + lighting::estimatorName(settings_.specular),
+                  "diffuse   " + lighting::estimatorName(settings_.diffuse),
+                  "exposure  " + formatted("%+.2f EV", exposure_),
+                  timeText(),
+                  "F1 help"};
+    text.message = message_;
+    text.messageIsError = messageIsError_;
+    return text;
+}
+
+std::string Viewer::title() const {
+    return nameOf(document_.path) + " - Lodestar";
+}
+
+void Viewer::saveScreenshot() {
+    if (settings_.width < 1 || settings_.height < 1) {
+        return;
+    }
+    scene::RenderSettings settings = settings_;
+    settings.samplesPerSide = options_.samplesPerSide;
+    auto frame = document_.renderer->render(view(), settings);
+    if (!frame) {
+        say(frame.error().message(), true);
+        return;
+    }
+    const std::string stem = std::filesystem::path(document_.path).stem().string();
+    std::string path;
+    std::error_code ignored;
+    int number = 0;
+    do {
+        char digits[16];
+        std::snprintf(digits, sizeof digits, "%03d", ++number);
+        path = stem + "-" + digits + ".png";
+    } while (std::filesystem::exists(path, ignored) && number < 1000000);
+    if (auto written = io::writeImage(path, toDisplay(frame->radiance, exposure_)); !written) {
+        say(written.error().message(), true);
+        return;
+    }
+    ++screenshots_;
+    say("saved " + path, false);
+}
+
+nlohmann::json Viewer::stats() const {
+    nlohmann::json frames = nlohmann::json::array();
+    for (const DrawnFrame& frame : drawn_) {
+        frames.push_back(
+            {{"at_s", frame.at}, {"draw_ms", frame.drawMs}, {"samples", frame.samples}});
+    }
+    nlohmann::json times = nlohmann::json::object();
+    if (!readings_.empty()) {
+        times["draw"] = median(readings_);
+    }
+    return {{"scene", document_.path},
+            {"environment", environmentName_},
+            {"estimators",
+             {{"specular", lighting::estimatorName(settings_.specular)},
+              {"diffuse", lighting::estimatorName(settings_.diffuse)}}},
+            {"counters", toJson(device_->counters())},
+            {"frames_drawn", framesDrawn_},
+            {"frames", frames},
+            {"screenshots", screenshots_},
+            {"times_ms", times},
+            {"renderer", device_->capabilities().renderer}};
+}
+
+} // namespace lodestar::app
