@@ -106,7 +106,7 @@ TEST(CommandLine, OpenGl33IsEnough) {
 }
 
 TEST(CommandLine, HelpTeachesWithAnExample) {
-    for (const char* command : {"render", "plan", "sample", "check"}) {
+    for (const char* command : {"render", "view", "plan", "sample", "check"}) {
         const RunResult run = runLodestar({command, "--help"});
         EXPECT_EQ(run.status, 0) << command;
         EXPECT_NE(run.out.find("Example"), std::string::npos) << command;
