@@ -11,7 +11,8 @@ samples/demo.sh [--help]
 
 Installs the Debian packages that are missing (as root or through sudo), builds Lodestar in build/
 (the tree that tests/run.sh uses), computes the demo's panoramas and scenes and renders them into
-out/demo/, without a display. Some minutes the first time, half a minute after.
+out/demo/, without a display. Then, from a terminal on a desktop, it shows the last scene in a window; elsewhere
+it ends. Some minutes the first time, half a minute after.
 
 Environment: LIBGL_ALWAYS_SOFTWARE=0 renders with the machine's own driver (default 1: llvmpipe).
 TEXT
@@ -29,6 +30,7 @@ case ${1:-} in
     ;;
 esac
 
+view_in_software=${LIBGL_ALWAYS_SOFTWARE:-0} # the window is the machine's own driver's
 export LIBGL_ALWAYS_SOFTWARE=${LIBGL_ALWAYS_SOFTWARE:-1}
 out=out/demo
 assets=$out/assets
@@ -163,3 +165,11 @@ echo "done in $((SECONDS - started)) s; look at:"
 for picture in figure1 figure2 figure3 ashikhmin seams estimators terrace table; do
     echo "    $out/$picture.png"
 done
+
+# On a desktop, and only when someone sits there, the terrace can be walked through.
+if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] && [ -t 0 ]; then
+    echo "the terrace in a window (F1 shows the keys, Escape closes):"
+    # shellcheck disable=SC2086 # a list of options
+    LIBGL_ALWAYS_SOFTWARE=$view_in_software build/lodestar view "$assets/terrace.gltf" --size 1280x720 --camera terrace \
+        --environment-width 512 $courtyard || echo "samples/demo.sh: the window could not be shown; the pictures are there" >&2
+fi

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+//
+// The viewer without its window: what it answers to events.
+#include <fstream>
+
+#include "app/viewer.h"
+#include "support/gl_fixture.h"
+#include "support/run.h"
+
+namespace lodestar::app {
+namespace {
+
+using platform::Key;
+using platform::PointerButton;
+
+class ViewerTest : public testing::GlTest {
+protected:
+    void SetUp() override {
+        GlTest::SetUp();
+        if (IsSkipped() || HasFatalFailure()) {
+            return;
+        }
+        ViewerOptions options;
+        options.scene.scene = sceneFile("first.gltf", "First");
+        options.scene.environment = "gradient:0.1,1";
+        options.scene.size = "64x48";
+        auto loaded = load(options.scene);
+        ASSERT_TRUE(loaded.ok()) << loaded.error().message();
+        auto viewer = Viewer::make(device(), std::move(*loaded), options);
+        ASSERT_TRUE(viewer.ok()) << viewer.error().message();
+        viewer_ = std::move(*viewer);
+    }
+    void TearDown() override {
+        viewer_.reset();
+        GlTest::TearDown();
+    }
+    std::string sceneFile(const std::string& file, const std::string& name) {
+        const std::string path = folder_.file(file);
+        std::ofstream(path) << R"({"asset":{"version":"2.0"},"scenes":[{"name":")" + name +
+                                   R"(","nodes":[0,1]},{"name":"Other","nodes":[1]}],"scene":0,
+"cameras":[{"type":"perspective","perspective":{"yfov":0.5,"znear":0.1}}],
+"nodes":[{"camera":0,"name":"left","translation":[-3,0,0]},
+{"camera":0,"name":"right","translation":[3,0,0]}]})";
+        return path;
+    }
+    void press(Key key, platform::Modifiers modifiers = {}) {
+        viewer_->handle(platform::KeyEvent{key, true, false, modifiers});
+        viewer_->handle(platform::KeyEvent{key, false, false, modifiers});
+    }
+    void drop(const std::string& path) { viewer_->handle(platform::DropEvent{{path}}); }
+
+    testing::TemporaryFolder folder_;
+    std::unique_ptr<Viewer> viewer_;
+};
+
+TEST_F(ViewerTest, ABrokenFileIsSaidInOneLineAndNothingIsLost) {
+    const std::string title = viewer_->title();
+    std::ofstream(folder_.file("broken.glb")) << "glTF, but not really";
+    std::ofstream(folder_.file("broken.hdr")) << "#?RADIANCE and nothing more";
+    for (const char* name : {"broken.glb", "broken.hdr", "missing.gltf", "notes.txt"}) {
+        drop(folder_.file(name));
+        const OverlayText text = viewer_->text();
+        EXPECT_TRUE(text.messageIsError) << name;
+        EXPECT_NE(text.message.find(name), std::string::npos) << text.message;
+        EXPECT_EQ(text.message.find('\n'), std::string::npos) << text.message;
+        EXPECT_EQ(viewer_->title(), title);
+        EXPECT_EQ(viewer_->stats().at("environment"), "gradient:0.1,1");
+        EXPECT_TRUE(viewer_->wantsFrame());
+        EXPECT_FALSE(viewer_->closing());
+    }
+}
+
+TEST_F(ViewerTest, ADroppedSceneIsShown) {
+    drop(sceneFile("second.gltf", "Second"));
+    EXPECT_FALSE(viewer_->text().messageIsError) << viewer_->text().message;
+    EXPECT_EQ(viewer_->title().rfind("second.gltf", 0), 0u);
+    EXPECT_EQ(viewer_->text().lines.front(), "second.gltf: Second");
+}
+
+TEST_F(ViewerTest, CamerasAndScenesGoRound) {
+    EXPECT_FLOAT_EQ(viewer_->view().position.x, -3.0f);
+    press(Key::C);
+    EXPECT_FLOAT_EQ(viewer_->view().position.x, 3.0f) << "of two without names of their own";
+    press(Key::C);
+    EXPECT_FLOAT_EQ(viewer_->view().position.x, -3.0f);
+    press(Key::C, {true, false, false});
+    EXPECT_FLOAT_EQ(viewer_->view().position.x, 3.0f);
+    press(Key::PageDown);
+    EXPECT_EQ(viewer_->text().lines.front(), "first.gltf: Other");
+    press(Key::PageDown);
+    EXPECT_EQ(viewer_->text().lines.front(), "first.gltf: First");
+    press(Key::PageUp);
+    EXPECT_EQ(viewer_->text().lines.front(), "first.gltf: Other");
+}
+
+TEST_F(ViewerTest, PointerAndHeldKeysMoveTheCameraAndHomeResetsIt) {
+    const scene::View before = viewer_->view();
+    viewer_->handle(platform::MotionEvent{30, 20});
+    viewer_->handle(platform::MotionEvent{40, 20});
+    EXPECT_EQ(viewer_->view().cameraFromWorld, before.cameraFromWorld) << "no button is held";
+    for (PointerButton button :
+         {PointerButton::Left, PointerButton::Middle, PointerButton::Right}) {
+        viewer_->handle(platform::ButtonEvent{button, true, {}});
+        viewer_->handle(platform::MotionEvent{10, 20});
+        viewer_->handle(platform::MotionEvent{40, 25});
+        viewer_->handle(platform::ButtonEvent{button, false, {}});
+        EXPECT_NE(viewer_->view().cameraFromWorld, before.cameraFromWorld);
+        press(Key::Home);
+        EXPECT_EQ(viewer_->view().cameraFromWorld, before.cameraFromWorld);
+    }
+    viewer_->handle(platform::WheelEvent{1.0});
+    EXPECT_NE(viewer_->view().position, before.position);
+    press(Key::Home);
+    viewer_->handle(platform::KeyEvent{Key::W, true, false, {}});
+    viewer_->advance(0.1);
+    EXPECT_EQ(viewer_->view().position, before.position) << "without the right button";
+    viewer_->handle(platform::ButtonEvent{PointerButton::Right, true, {}});
+    viewer_->advance(0.1);
+    const float once = before.position.z - viewer_->view().position.z;
+    EXPECT_GT(once, 0.0f);
+    viewer_->handle(platform::FocusLostEvent{});
+    viewer_->advance(0.1);
+    EXPECT_FLOAT_EQ(before.position.z - viewer_->view().position.z, once) << "a key got stuck";
+}
+
+TEST_F(ViewerTest, KeysChooseAndClose) {
+    press(Key::Digit2);
+    press(Key::Digit3, {true, false, false});
+    EXPECT_EQ(viewer_->stats().at("estimators").at("specular"), "mip");
+    EXPECT_EQ(viewer_->stats().at("estimators").at("diffuse"), "lowest-mip");
+    press(Key::F1);
+    EXPECT_TRUE(viewer_->text().help);
+    press(Key::H);
+    EXPECT_FALSE(viewer_->text().help);
+    press(Key::F11);
+    EXPECT_TRUE(viewer_->fullScreen());
+    viewer_->setSize(0, 0, 1.0f); // minimised
+    press(Key::P);
+    EXPECT_EQ(viewer_->stats().at("screenshots"), 0);
+    press(Key::F);
+    EXPECT_FALSE(viewer_->closing());
+    press(Key::Escape);
+    EXPECT_TRUE(viewer_->closing());
+}
+
+} // namespace
+} // namespace lodestar::app
