@@ -100,8 +100,8 @@ TEST_F(ViewerTest, PointerAndHeldKeysMoveTheCameraAndHomeResetsIt) {
     EXPECT_EQ(viewer_->view().cameraFromWorld, before.cameraFromWorld) << "no button is held";
     for (PointerButton button :
          {PointerButton::Left, PointerButton::Middle, PointerButton::Right}) {
-        viewer_->handle(platform::ButtonEvent{button, true, {}});
         viewer_->handle(platform::MotionEvent{10, 20});
+        viewer_->handle(platform::ButtonEvent{button, true, {}});
         viewer_->handle(platform::MotionEvent{40, 25});
         viewer_->handle(platform::ButtonEvent{button, false, {}});
         EXPECT_NE(viewer_->view().cameraFromWorld, before.cameraFromWorld);
