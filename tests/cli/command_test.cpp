@@ -161,8 +161,9 @@ TEST(CommandLine, ASceneIsChosenByNameOrNumber) {
         arguments.insert(arguments.end(), scene.begin(), scene.end());
         const RunResult run = runLodestar(arguments);
         EXPECT_EQ(run.status, 0) << run.err;
+        const nlohmann::json plan = nlohmann::json::parse(run.out);
         std::string names;
-        for (const auto& effect : nlohmann::json::parse(run.out).at("effects")) {
+        for (const auto& effect : plan.at("effects")) {
             names += effect.at("effect") == "draw" ? effect.at("subject").get<std::string>() : "";
         }
         return names;
