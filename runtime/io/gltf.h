@@ -13,8 +13,8 @@
 #include <vector>
 
 #include <glm/gtc/quaternion.hpp>
-#include <glm/mat3x2.hpp>
 #include <glm/gtc/type_precision.hpp>
+#include <glm/mat3x2.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

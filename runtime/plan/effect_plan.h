@@ -33,8 +33,8 @@ enum class Feature : std::uint32_t {
     Unlit = 1u << 15,                ///< the base colour is the radiance; no light is asked for
     SpecularTexture = 1u << 16,      ///< scales a dielectric's F0
     SpecularColorTexture = 1u << 17, ///< the same by colour
-    Skinning = 1u << 18,     ///< four joints a vertex
-    SecondJoints = 1u << 19, ///< four more
+    Skinning = 1u << 18,             ///< four joints a vertex
+    SecondJoints = 1u << 19,         ///< four more
 };
 
 using Features = std::uint32_t;

@@ -47,11 +47,17 @@ enum TextureUnit : int {
 };
 
 /// The names of the samplers, by unit.
-inline constexpr std::array<const char*, 11> kSamplerNames = {
-    "uBaseColorTexture", "uMetallicRoughnessTexture", "uNormalTexture",
-    "uOcclusionTexture", "uEmissiveTexture",          "uExponentTexture",
-    "uSpecularTexture",  "uSpecularColorTexture",     "uEnvironment",
-    "uIrradiance",       "uJoints"};
+inline constexpr std::array<const char*, 11> kSamplerNames = {"uBaseColorTexture",
+                                                              "uMetallicRoughnessTexture",
+                                                              "uNormalTexture",
+                                                              "uOcclusionTexture",
+                                                              "uEmissiveTexture",
+                                                              "uExponentTexture",
+                                                              "uSpecularTexture",
+                                                              "uSpecularColorTexture",
+                                                              "uEnvironment",
+                                                              "uIrradiance",
+                                                              "uJoints"};
 
 class GpuScene {
 public:

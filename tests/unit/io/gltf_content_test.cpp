@@ -179,7 +179,7 @@ TEST(GltfContent, QuantizedAttributesNeedTheirExtension) {
 }
 
 TEST(GltfContent, QuantizedValuesAreWhatTheySay) {
-    Json document = testing::triangleDocument();
+    auto document = testing::triangleDocument();
     document["extensionsRequired"] = {"KHR_mesh_quantization"};
     io::Bytes buffer = testing::triangleBytes();
     io::Bytes positions;
@@ -219,7 +219,7 @@ TEST(GltfContent, ColoursOfThreeAndFourChannels) {
 }
 
 TEST(GltfContent, InterleavedAndSparse) {
-    Json document = testing::triangleDocument();
+    auto document = testing::triangleDocument();
     io::Bytes buffer = testing::triangleBytes();
     io::Bytes mixed;
     put<float>(mixed, {5, 6, 7, -1, 8, 9, 10, -1, 11, 12, 13, -1});
@@ -281,7 +281,7 @@ TEST(GltfContent, ModesAreUnrolled) {
 }
 
 TEST(GltfContent, FlatNormalsSplitVertices) {
-    Json document = testing::triangleDocument();
+    auto document = testing::triangleDocument();
     io::Bytes buffer = testing::triangleBytes();
     io::Bytes points;
     put<float>(points, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1});
@@ -316,7 +316,9 @@ TEST(GltfContent, BrokenVerticesAreRepairedAndCounted) {
     EXPECT_EQ(counted(file, "normal"), 2U);
     EXPECT_EQ(counted(file, "texture coordinate"), 1U);
     set(4, nan); // a position: its only triangle goes
-    const io::GltfFile without = loaded(testing::triangleDocument(), buffer);
+    auto document = testing::triangleDocument();
+    document.erase("animations"); // whose keys must be finite, and are these positions
+    const io::GltfFile without = loaded(document, buffer);
     EXPECT_TRUE(without.meshes.at(0).primitives.empty());
     EXPECT_EQ(counted(without, "position not finite"), 1U);
 }
@@ -394,14 +396,14 @@ TEST(GltfContent, RepairsAreCounted) {
 }
 
 TEST(GltfContent, MissingImageIsWhite) {
-    Json document = testing::triangleDocument();
+    auto document = testing::triangleDocument();
     document["images"][0] = {{"uri", "none.png"}};
     const io::GltfFile file = loaded(document);
     EXPECT_EQ(file.images.at(0).pixels(), (std::vector<float>{1, 1, 1, 1}));
 }
 
 TEST(GltfContent, BlinnPhongExtras) {
-    Json document = testing::triangleDocument();
+    auto document = testing::triangleDocument();
     document["materials"][0]["extras"]["lodestar"] = Json::parse(
         R"({"diffuse":[0.5,0.25,0],"f0":[0.04,0.04,0.04],"exponent":128,
             "exponentTexture":{"index":0,"texCoord":1},"exponentEncoding":"exponent","exponentScale":2048})");
@@ -422,7 +424,7 @@ TEST(GltfContent, BlinnPhongExtras) {
 }
 
 TEST(GltfContent, EmissiveStrengthMultiplies) {
-    Json document = testing::triangleDocument();
+    auto document = testing::triangleDocument();
     document["materials"][0]["emissiveFactor"] = {1.0, 0.5, 0.0};
     document["materials"][0]["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] =
         8;
@@ -430,7 +432,7 @@ TEST(GltfContent, EmissiveStrengthMultiplies) {
 }
 
 TEST(GltfContent, LegalFilesThatTheLibraryAloneRefuses) {
-    Json document = testing::triangleDocument();
+    auto document = testing::triangleDocument();
     document["animations"][0]["channels"][0]["target"].erase("node");
     EXPECT_TRUE(load(document).ok()) << "a channel without a target node";
     document = testing::triangleDocument();
