@@ -98,7 +98,7 @@ std::string output(const std::string& command) {
     return text;
 }
 
-bool soon(const std::function<bool()>& holds, double seconds = 30.0) {
+bool soon(const std::function<bool()>& holds, double seconds = 120.0) {
     const auto start = std::chrono::steady_clock::now();
     while (!holds()) {
         if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() >
@@ -147,7 +147,7 @@ protected:
         run_ = std::async(std::launch::async, [this] {
             return runLodestar({"view", scene_, "--environment", kEnvironment, "--size", "320x240",
                                 "--stats", folder_.file("stats.json")},
-                               {"DISPLAY=" + display_->name()}, 90.0);
+                               {"DISPLAY=" + display_->name()}, 400.0);
         });
         ASSERT_TRUE(soon([this] {
             window_ = output("xdotool search --onlyvisible --class lodestar");
@@ -156,6 +156,7 @@ protected:
         })) << "no window";
     }
     void TearDown() override {
+        display_.reset(); // whoever still shows a window there ends
         if (run_.valid()) {
             run_.wait();
         }
