@@ -200,7 +200,7 @@ TEST(Plan, UnlitDrawsAskForNoLight) {
 RC_GTEST_PROP(PlanProperty, PureAndComplete, ()) {
     std::vector<DrawView> draws(*rc::gen::inRange<std::size_t>(0, 40));
     for (DrawView& draw : draws) {
-        draw.features = *rc::gen::inRange<Features>(0, 1u << 18);
+        draw.features = *rc::gen::inRange<Features>(0, 1u << 20);
         draw.visible = *rc::gen::arbitrary<bool>();
         draw.blended = *rc::gen::arbitrary<bool>();
         draw.glossy = *rc::gen::arbitrary<bool>();
