@@ -15,11 +15,11 @@ int runPlan(const SceneOptions& options) {
     if (!loaded) {
         return fail(loaded.error());
     }
-    warn(loaded->environment.warnings, loaded->environmentName);
+    warn(loaded->light.environment.warnings, loaded->light.name);
     warn(loaded->scene.warnings, options.scene);
     const plan::PlanInput input =
         scene::planInput(loaded->scene, loaded->view, loaded->settings,
-                         {loaded->environmentName, loaded->environment.base.width(), true});
+                         {loaded->light.name, loaded->light.environment.base.width(), true});
     std::printf("%s\n", toJson(plan::plan(input)).dump(2).c_str());
     return 0;
 }

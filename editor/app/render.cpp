@@ -59,7 +59,7 @@ nlohmann::json stats(const std::vector<scene::Frame>& frames, const gl::WorkCoun
                             {"times_ms", frame.timesMs},
                             {"effects", toJson(frame.plan)["effects"]}});
     }
-    core::Tally warnings = loaded.environment.warnings;
+    core::Tally warnings = loaded.light.environment.warnings;
     warnings.merge(loaded.scene.warnings);
     warnings.add("pixel not finite, set to 0", frames.back().repairedPixels);
     return {{"plan", toJson(frames.back().plan)},
@@ -86,7 +86,7 @@ core::Result<void> renderAll(const RenderOptions& options, OutputKind kind, Load
     if (!renderer) {
         return renderer.error();
     }
-    (*renderer)->setEnvironment(loaded.environmentName, std::move(loaded.environment.base));
+    (*renderer)->setEnvironment(loaded.light.name, std::move(loaded.light.environment.base));
     std::vector<scene::Frame> frames;
     const bool sequence = options.output.find("%04d") != std::string::npos;
     for (int i = 0; i < options.frames; ++i) {
@@ -140,7 +140,7 @@ int runRender(const RenderOptions& options) {
     if (!loaded) {
         return fail(loaded.error());
     }
-    warn(loaded->environment.warnings, loaded->environmentName);
+    warn(loaded->light.environment.warnings, loaded->light.name);
     warn(loaded->scene.warnings, options.scene.scene);
     const int samples = options.samples > 0 ? options.samples : (*kind == OutputKind::Png ? 4 : 1);
     loaded->settings.samplesPerSide = static_cast<int>(std::lround(std::sqrt(samples)));

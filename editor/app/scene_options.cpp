@@ -94,10 +94,10 @@ core::Result<lighting::Estimator> parseShaderEstimator(const std::string& name, 
     return estimator;
 }
 
-/// The scene of a file that a name or a number means; -1 for the file's own choice.
+/// The scene of a file that a name or a number means; the file's own choice for no word.
 core::Result<int> chooseScene(const io::GltfFile& file, const std::string& wanted) {
     if (wanted.empty()) {
-        return -1;
+        return file.defaultScene;
     }
     std::string known;
     for (std::size_t i = 0; i < file.scenes.size(); ++i) {
@@ -110,31 +110,6 @@ core::Result<int> chooseScene(const io::GltfFile& file, const std::string& wante
     return usage("no scene '" + wanted + "'; the file has " +
                      (known.empty() ? "none" : std::to_string(file.scenes.size()) + ": " + known),
                  "--scene");
-}
-
-/// The distant light: what the command line names, else the scene's own, else a clear sky.
-core::Result<void> loadEnvironment(const SceneOptions& options, const io::GltfFile& file,
-                                   int sceneIndex, LoadedScene& loaded) {
-    const int own =
-        sceneIndex < 0 ? io::kNone : file.scenes[static_cast<std::size_t>(sceneIndex)].environment;
-    if (options.environment.empty() && own == io::kNone) {
-        loaded.environmentName = kClearSky;
-        loaded.environment.base =
-            lighting::cubeFromAnalytic(lighting::ClearSkyEnvironment{}, options.cubeWidth);
-        return {};
-    }
-    loaded.environmentName = options.environment.empty() ? options.scene + " (image-based light " +
-                                                               std::to_string(own) + ")"
-                                                         : options.environment;
-    auto environment = options.environment.empty()
-                           ? io::environmentOf(file, own, options.cubeWidth)
-                           : io::loadEnvironment(options.environment, options.cubeWidth);
-    if (!environment) {
-        return core::inFile(environment.error(),
-                            options.environment.empty() ? options.scene : options.environment);
-    }
-    loaded.environment = std::move(*environment);
-    return {};
 }
 
 core::Result<scene::CameraRequest> cameraRequest(const SceneOptions& options) {
@@ -234,6 +209,43 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
                        "Folder that the scene's files may not leave (default: the scene's own)");
 }
 
+core::Result<OpenedFile> openFile(const SceneOptions& options, std::optional<int> number) {
+    auto file = io::loadGltf(options.scene, {options.assetRoot, true});
+    if (!file) {
+        return core::inFile(file.error(), options.scene);
+    }
+    if (number && *number < static_cast<int>(file->scenes.size())) {
+        return OpenedFile{std::move(*file), *number};
+    }
+    const auto index = chooseScene(*file, options.sceneName);
+    if (!index) {
+        return index.error();
+    }
+    return OpenedFile{std::move(*file), *index};
+}
+
+core::Result<DistantLight> distantLight(const SceneOptions& options, const OpenedFile& opened) {
+    const std::string& named = options.environment;
+    const int own =
+        opened.sceneIndex == io::kNone
+            ? io::kNone
+            : opened.file.scenes[static_cast<std::size_t>(opened.sceneIndex)].environment;
+    if (named.empty() && own == io::kNone) {
+        DistantLight sky{kClearSky, {}};
+        sky.environment.base =
+            lighting::cubeFromAnalytic(lighting::ClearSkyEnvironment{}, options.cubeWidth);
+        return sky;
+    }
+    auto environment = named.empty() ? io::environmentOf(opened.file, own, options.cubeWidth)
+                                     : io::loadEnvironment(named, options.cubeWidth);
+    if (!environment) {
+        return core::inFile(environment.error(), named.empty() ? options.scene : named);
+    }
+    return DistantLight{
+        named.empty() ? options.scene + " (image-based light " + std::to_string(own) + ")" : named,
+        std::move(*environment)};
+}
+
 core::Result<LoadedScene> load(const SceneOptions& options) {
     LoadedScene loaded;
     auto settings = renderSettings(options);
@@ -245,20 +257,18 @@ core::Result<LoadedScene> load(const SceneOptions& options) {
     if (!request) {
         return request.error();
     }
-    auto file = io::loadGltf(options.scene, {options.assetRoot, true});
-    if (!file) {
-        return core::inFile(file.error(), options.scene);
+    auto opened = openFile(options);
+    if (!opened) {
+        return opened.error();
     }
-    const auto sceneIndex = chooseScene(*file, options.sceneName);
-    if (!sceneIndex) {
-        return sceneIndex.error();
+    auto light = distantLight(options, *opened);
+    if (!light) {
+        return light.error();
     }
-    const int shown = *sceneIndex >= 0 ? *sceneIndex : file->defaultScene;
-    if (auto lit = loadEnvironment(options, *file, shown, loaded); !lit) {
-        return lit.error();
-    }
-    loaded.sceneCount = std::max(1, static_cast<int>(file->scenes.size()));
-    loaded.scene = scene::buildScene(std::move(*file), *sceneIndex);
+    loaded.light = std::move(*light);
+    loaded.sceneIndex = opened->sceneIndex;
+    loaded.sceneCount = std::max(1, static_cast<int>(opened->file.scenes.size()));
+    loaded.scene = scene::buildScene(std::move(opened->file), opened->sceneIndex);
     loaded.camera = *request;
     if (options.time && !std::isfinite(*options.time)) {
         return usage("a time is a number of seconds", "--time");

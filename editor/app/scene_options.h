@@ -36,15 +36,36 @@ struct SceneOptions {
 
 void addSceneOptions(CLI::App& command, SceneOptions& options);
 
+/// A file and which of its scenes is shown.
+struct OpenedFile {
+    io::GltfFile file;
+    int sceneIndex = io::kNone; ///< kNone: the file has none, or has its root nodes shown
+};
+
+/// @param number the scene, whatever options.sceneName says  @errors Usage if the file has no such
+/// scene, InputRefused
+[[nodiscard]] core::Result<OpenedFile> openFile(const SceneOptions& options,
+                                                std::optional<int> number = {});
+
+/// A distant light and its name, for people.
+struct DistantLight {
+    std::string name;
+    io::LoadedEnvironment environment;
+};
+
+/// What the options name, else the scene's own, else a clear sky. @errors InputRefused
+[[nodiscard]] core::Result<DistantLight> distantLight(const SceneOptions& options,
+                                                      const OpenedFile& opened);
+
 /// What the words mean, files loaded.
 struct LoadedScene {
     scene::Scene scene;
     scene::CameraRequest camera;
-    int sceneCount = 1; ///< of the file, at least 1
+    int sceneIndex = io::kNone; ///< as OpenedFile's
+    int sceneCount = 1;         ///< of the file, at least 1
     scene::View view;
     scene::RenderSettings settings;
-    io::LoadedEnvironment environment;
-    std::string environmentName;
+    DistantLight light;
     int animation = scene::kRestPose; ///< that the scene is posed by
     double time = 0.0;                ///< seconds into it
 

@@ -34,13 +34,15 @@ core::Result<void> run(platform::Window& window, Viewer& viewer) {
         }
         const double patience =
             drawable ? viewer.patience() : std::numeric_limits<double>::infinity();
-        for (const platform::Event& event :
-             patience > 0.0 ? window.wait(patience) : window.poll()) {
-            viewer.handle(event);
-        }
+        const std::vector<platform::Event> events =
+            patience > 0.0 ? window.wait(patience) : window.poll();
+        // What moved did so until now; what an event sets going has not yet.
         const auto now = Clock::now();
         viewer.advance(std::chrono::duration<double>(now - last).count());
         last = now;
+        for (const platform::Event& event : events) {
+            viewer.handle(event);
+        }
         window.setFullScreen(viewer.fullScreen());
         if (title != viewer.title()) {
             title = viewer.title();
@@ -87,7 +89,6 @@ int runView(ViewOptions options) {
     if (!loaded) {
         return fail(loaded.error());
     }
-    warn(loaded->environment.warnings, loaded->environmentName);
     warn(loaded->scene.warnings, options.viewer.scene.scene);
     options.viewer.samplesPerSide = static_cast<int>(std::lround(std::sqrt(options.samples)));
     if (auto shown = show(options, std::move(*loaded)); !shown) {

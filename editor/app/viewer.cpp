@@ -47,16 +47,20 @@ Viewer::Viewer(gl::Device& device, const ViewerOptions& options)
 core::Result<std::unique_ptr<Viewer>> Viewer::make(gl::Device& device, LoadedScene loaded,
                                                    const ViewerOptions& options) {
     std::unique_ptr<Viewer> viewer(new Viewer(device, options));
-    viewer->environment_ = std::move(loaded.environment.base);
-    viewer->environmentName_ = loaded.environmentName;
+    viewer->lightChosen_ = !options.scene.environment.empty();
     viewer->settings_ = loaded.settings;
     viewer->request_ = loaded.camera;
+    viewer->sceneIndex_ = loaded.sceneIndex;
     viewer->sceneCount_ = loaded.sceneCount;
+    if (const auto camera = scene::findCamera(loaded.scene, loaded.camera.name)) {
+        viewer->cameraIndex_ = *camera;
+    }
     auto document = viewer->documentOf(options.scene.scene, std::move(loaded.scene));
     if (!document) {
         return document.error();
     }
     viewer->document_ = std::move(*document);
+    viewer->takeLight(std::move(loaded.light));
     viewer->animation_ = loaded.animation;
     viewer->time_ = loaded.time;
     return viewer;
@@ -70,7 +74,6 @@ core::Result<Viewer::Document> Viewer::documentOf(std::string path, scene::Scene
         return core::inFile(renderer.error(), document.path);
     }
     document.renderer = std::move(*renderer);
-    document.renderer->setEnvironment(environmentName_, environment_);
     document.bounds = document.scene->worldBounds();
     return document;
 }
@@ -111,17 +114,30 @@ void Viewer::say(std::string message, bool isError) {
     changed(false);
 }
 
-void Viewer::openScene(const std::string& path, int sceneIndex) {
+void Viewer::openScene(const std::string& path, std::optional<int> number) {
     const bool same = path == document_.path;
-    auto file = io::loadGltf(path, {same ? options_.scene.assetRoot : std::string(), true});
-    if (!file) {
-        say(core::inFile(file.error(), path).message(), true);
+    SceneOptions wanted = options_.scene;
+    wanted.scene = path;
+    wanted.sceneName.clear();
+    // A file of the command line keeps its root, whatever was shown in between.
+    wanted.assetRoot = path == options_.scene.scene ? options_.scene.assetRoot : std::string();
+    auto opened = openFile(wanted, number);
+    if (!opened) {
+        say(opened.error().message(), true);
         return;
     }
-    const int count = std::max(1, static_cast<int>(file->scenes.size()));
-    const int index = sceneIndex >= 0 ? sceneIndex % count : -1;
-    const bool numbered = !file->scenes.empty();
-    scene::Scene built = scene::buildScene(std::move(*file), numbered ? index : -1);
+    std::optional<DistantLight> own;
+    if (!lightChosen_) {
+        auto light = distantLight(wanted, *opened);
+        if (!light) {
+            say(light.error().message(), true);
+            return;
+        }
+        own = std::move(*light);
+    }
+    const int index = opened->sceneIndex;
+    const int count = std::max(1, static_cast<int>(opened->file.scenes.size()));
+    scene::Scene built = scene::buildScene(std::move(opened->file), index);
     warn(built.warnings, path);
     auto document = documentOf(path, std::move(built));
     if (!document) {
@@ -129,6 +145,8 @@ void Viewer::openScene(const std::string& path, int sceneIndex) {
         return;
     }
     document_ = std::move(*document);
+    own ? takeLight(std::move(*own))
+        : document_.renderer->setEnvironment(environmentName_, environment_);
     sceneIndex_ = index;
     sceneCount_ = count;
     cameraIndex_ = 0;
@@ -141,16 +159,22 @@ void Viewer::openScene(const std::string& path, int sceneIndex) {
     changed(true);
 }
 
+void Viewer::takeLight(DistantLight light) {
+    warn(light.environment.warnings, light.name);
+    lightWarnings_ = light.environment.warnings;
+    environment_ = std::move(light.environment.base);
+    environmentName_ = std::move(light.name);
+    document_.renderer->setEnvironment(environmentName_, environment_);
+}
+
 void Viewer::openEnvironment(const std::string& path) {
     auto loaded = io::loadEnvironment(path, options_.scene.cubeWidth);
     if (!loaded) {
         say(core::inFile(loaded.error(), path).message(), true);
         return;
     }
-    warn(loaded->warnings, path);
-    environment_ = std::move(loaded->base);
-    environmentName_ = path;
-    document_.renderer->setEnvironment(environmentName_, environment_);
+    takeLight({path, std::move(*loaded)});
+    lightChosen_ = true;
     say("lit by " + path, false);
     changed(true);
 }
@@ -201,9 +225,10 @@ void Viewer::note(const scene::Frame& frame, int samplesPerSide) {
     const int samples = samplesPerSide * samplesPerSide;
     ++framesDrawn_;
     if (drawn_.size() < kFramesKept) {
-        drawn_.push_back(
-            {std::chrono::duration<double>(Clock::now() - start_).count(), ms, samples});
+        drawn_.push_back({std::chrono::duration<double>(Clock::now() - start_).count(), samples,
+                          frame.timesMs, frame.counters});
     }
+    plan_ = frame.plan;
     if (samplesPerSide == options_.samplesPerSide) {
         fineMs_ = ms;
     }
@@ -286,9 +311,13 @@ void Viewer::saveScreenshot() {
 nlohmann::json Viewer::stats() const {
     nlohmann::json frames = nlohmann::json::array();
     for (const DrawnFrame& frame : drawn_) {
-        frames.push_back(
-            {{"at_s", frame.at}, {"draw_ms", frame.drawMs}, {"samples", frame.samples}});
+        frames.push_back({{"at_s", frame.at},
+                          {"samples", frame.samples},
+                          {"times_ms", frame.timesMs},
+                          {"counters", toJson(frame.counters)}});
     }
+    core::Tally warnings = lightWarnings_;
+    warnings.merge(document_.scene->warnings);
     nlohmann::json times = nlohmann::json::object();
     if (!readings_.empty()) {
         times["draw"] = median(readings_);
@@ -298,6 +327,8 @@ nlohmann::json Viewer::stats() const {
             {"estimators",
              {{"specular", lighting::estimatorName(settings_.specular)},
               {"diffuse", lighting::estimatorName(settings_.diffuse)}}},
+            {"plan", toJson(plan_)},
+            {"warnings", warnings.counts()},
             {"counters", toJson(device_->counters())},
             {"frames_drawn", framesDrawn_},
             {"frames", frames},

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -68,13 +69,16 @@ private:
     };
     struct DrawnFrame {
         double at = 0.0; ///< seconds since the viewer was made
-        double drawMs = 0.0;
         int samples = 1; ///< a pixel
+        std::map<std::string, double> timesMs;
+        gl::WorkCounters counters;
     };
 
     Viewer(gl::Device& device, const ViewerOptions& options);
     [[nodiscard]] core::Result<Document> documentOf(std::string path, scene::Scene scene);
-    void openScene(const std::string& path, int sceneIndex);
+    /// @param number which of its scenes; absent: the file's own choice
+    void openScene(const std::string& path, std::optional<int> number);
+    void takeLight(DistantLight light);
     void openEnvironment(const std::string& path);
     void press(const platform::KeyEvent& event);
     void perform(const KeyBinding& binding);
@@ -105,10 +109,12 @@ private:
     Overlay overlay_;
     lighting::Cubemap environment_;
     std::string environmentName_;
+    core::Tally lightWarnings_;
+    bool lightChosen_ = false; ///< by the options or dropped; otherwise a scene brings its own
     scene::RenderSettings settings_;
     scene::CameraRequest request_;
     Document document_;
-    int sceneIndex_ = -1; ///< -1: the file's default
+    int sceneIndex_ = io::kNone; ///< as OpenedFile's
     int sceneCount_ = 1;
     int cameraIndex_ = 0;
     int animation_ = scene::kRestPose; ///< that the scene is posed by
@@ -138,6 +144,7 @@ private:
     bool measured_ = false; ///< the first reading after a change has been dropped
     std::vector<double> readings_;
     int readingSamples_ = 0;
+    plan::EffectPlan plan_; ///< of the last frame
     std::vector<DrawnFrame> drawn_;
     std::uint64_t framesDrawn_ = 0;
     std::uint64_t screenshots_ = 0;

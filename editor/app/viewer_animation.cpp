@@ -17,6 +17,7 @@ void Viewer::chooseAnimation(int animation) {
     }
     animation_ = animation % static_cast<int>(names.size());
     time_ = 0.0;
+    playing_ = playing_ && scene::duration(*document_.scene, animation_) > 0.0;
     scene::reachOver(*document_.scene, animation_);
     document_.bounds = document_.scene->worldBounds();
     scene::pose(*document_.scene, animation_, time_);
@@ -27,7 +28,8 @@ void Viewer::play() {
     if (animation_ == scene::kRestPose) {
         chooseAnimation(0);
     }
-    playing_ = animation_ != scene::kRestPose && !playing_;
+    // One pose is no motion: an animation of no length would draw for nothing.
+    playing_ = !playing_ && scene::duration(*document_.scene, animation_) > 0.0;
     changed(false);
 }
 
@@ -48,8 +50,7 @@ void Viewer::advanceAnimation(double seconds) {
     if (!playing_) {
         return;
     }
-    const double length = scene::duration(*document_.scene, animation_);
-    time_ = length > 0.0 ? std::fmod(time_ + seconds, length) : 0.0;
+    time_ = std::fmod(time_ + seconds, scene::duration(*document_.scene, animation_));
     scene::pose(*document_.scene, animation_, time_);
     changed(false);
 }

@@ -63,7 +63,7 @@ void Viewer::handle(const platform::Event& event) {
             [&](const platform::WheelEvent& turned) { wheel(static_cast<float>(turned.steps)); },
             [&](const platform::DropEvent& drop) {
                 for (const std::string& path : drop.paths) {
-                    isScene(path) ? openScene(path, -1) : openEnvironment(path);
+                    isScene(path) ? openScene(path, {}) : openEnvironment(path);
                 }
             },
             [&](const platform::DamageEvent&) { changed(false); },

@@ -251,10 +251,6 @@ void Window::setFullScreen(bool on) {
     state_->fullScreen = on;
 }
 
-bool Window::fullScreen() const {
-    return state_->fullScreen;
-}
-
 void Window::present() {
     glfwSwapBuffers(state_->window);
 }

@@ -153,9 +153,8 @@ public:
     [[nodiscard]] float contentScale() const;
 
     void setTitle(const std::string& title);
-    /// Fills the display that the window is on, or gives it back its place.
+    /// Fills the primary display, or gives the window back its place.
     void setFullScreen(bool on);
-    [[nodiscard]] bool fullScreen() const;
     /// Shows what was drawn into framebuffer 0.
     void present();
 

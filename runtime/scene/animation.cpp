@@ -162,6 +162,7 @@ void pose(Scene& scene, int animation, double seconds) {
 void reachOver(Scene& scene, int animation) {
     constexpr int kPoses = 32;
     const double last = duration(scene, animation);
+    scene.reach = {}; // worldBounds() holds it, and another animation's is of the past
     Bounds reach;
     for (int i = 0; i <= kPoses; ++i) {
         pose(scene, animation, last * i / kPoses);

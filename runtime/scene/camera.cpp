@@ -131,6 +131,28 @@ std::vector<std::string> cameraNames(const Scene& scene) {
     return names;
 }
 
+core::Result<int> findCamera(const Scene& scene, const std::string& nameOrNumber) {
+    const std::vector<PlacedCamera> cameras = placedCameras(scene);
+    std::string known;
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+        if (nameOf(cameras[i]) == nameOrNumber || cameras[i].node->name == nameOrNumber) {
+            return static_cast<int>(i);
+        }
+        known += (known.empty() ? "" : ", ") + nameOf(cameras[i]);
+    }
+    std::size_t number = 0;
+    const char* end = nameOrNumber.data() + nameOrNumber.size();
+    const auto [stop, error] = std::from_chars(nameOrNumber.data(), end, number);
+    if (error == std::errc{} && stop == end && number < cameras.size()) {
+        return static_cast<int>(number);
+    }
+    return core::Error{core::ErrorCode::Usage,
+                       "no camera '" + nameOrNumber + "'; the scene has " +
+                           (known.empty() ? "none" : std::to_string(cameras.size()) + ": " + known),
+                       {},
+                       "--camera"};
+}
+
 core::Result<View> chooseView(const Scene& scene, const CameraRequest& request, float aspect) {
     const float fov = request.verticalFov.value_or(kDefaultVerticalFov);
     if (request.eye || request.target) {
@@ -143,34 +165,19 @@ core::Result<View> chooseView(const Scene& scene, const CameraRequest& request, 
         return lookAt(scene, eye, target, fov, aspect);
     }
     const std::vector<PlacedCamera> cameras = placedCameras(scene);
-    if (request.number && *request.number < static_cast<int>(cameras.size())) {
-        return fromCamera(scene, cameras[static_cast<std::size_t>(*request.number)], aspect,
-                          request.verticalFov);
-    }
-    if (request.name.empty()) {
-        return cameras.empty() ? frame(scene, fov, aspect)
-                               : fromCamera(scene, cameras.front(), aspect, request.verticalFov);
-    }
-    for (const PlacedCamera& placed : cameras) {
-        if (nameOf(placed) == request.name || placed.node->name == request.name) {
-            return fromCamera(scene, placed, aspect, request.verticalFov);
+    int number = request.number.value_or(0);
+    if (!request.name.empty() && !request.number) {
+        const core::Result<int> found = findCamera(scene, request.name);
+        if (!found) {
+            return found.error();
         }
+        number = *found;
     }
-    std::size_t number = 0;
-    const char* end = request.name.data() + request.name.size();
-    const auto [stop, error] = std::from_chars(request.name.data(), end, number);
-    if (error == std::errc{} && stop == end && number < cameras.size()) {
-        return fromCamera(scene, cameras[number], aspect, request.verticalFov);
+    if (number < 0 || number >= static_cast<int>(cameras.size())) {
+        return frame(scene, fov, aspect);
     }
-    std::string known;
-    for (const PlacedCamera& placed : cameras) {
-        known += (known.empty() ? "" : ", ") + nameOf(placed);
-    }
-    return core::Error{core::ErrorCode::Usage,
-                       "no camera '" + request.name + "'; the scene has " +
-                           (known.empty() ? "none" : std::to_string(cameras.size()) + ": " + known),
-                       {},
-                       "--camera"};
+    return fromCamera(scene, cameras[static_cast<std::size_t>(number)], aspect,
+                      request.verticalFov);
 }
 
 bool mayBeSeen(const Bounds& worldBounds, const glm::mat4& clipFromWorld) {

@@ -29,7 +29,8 @@ struct View {
 /// What the user asked for; what is absent is chosen.
 struct CameraRequest {
     std::string name;          ///< a camera's or its node's name, or its number; empty: the first
-    std::optional<int> number; ///< one of the file's, in order, whatever the names
+    std::optional<int> number; ///< one of the scene's, in order, whatever the names; one that
+                               ///< is not there frames the scene
     std::optional<glm::vec3> eye;     ///< metres
     std::optional<glm::vec3> target;  ///< metres
     std::optional<float> verticalFov; ///< radians
@@ -45,6 +46,9 @@ inline constexpr float kDefaultVerticalFov = 0.785398163f; ///< 45 degrees
 
 /// The names of the scene's cameras, in order.
 [[nodiscard]] std::vector<std::string> cameraNames(const Scene& scene);
+
+/// Which camera of the scene a name or else a number means. @errors Usage naming what there is
+[[nodiscard]] core::Result<int> findCamera(const Scene& scene, const std::string& nameOrNumber);
 
 /// Depths of the near and far plane, metres, that hold bounds as seen from an eye.
 [[nodiscard]] glm::vec2 depthRange(const Bounds& bounds, const glm::mat4& cameraFromWorld);

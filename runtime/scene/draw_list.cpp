@@ -102,6 +102,19 @@ std::vector<DrawItem> drawItems(const Scene& scene) {
     return items;
 }
 
+std::vector<bool> wornSkins(const Scene& scene) {
+    std::vector<bool> worn(scene.skins.size());
+    for (const Node& node : scene.nodes) {
+        for (const Component& component : node.components) {
+            const auto* mesh = std::get_if<MeshComponent>(&component);
+            if (mesh != nullptr && mesh->skin != io::kNone) {
+                worn[static_cast<std::size_t>(mesh->skin)] = true;
+            }
+        }
+    }
+    return worn;
+}
+
 std::vector<PlacedLight> placedLights(const Scene& scene) {
     std::vector<PlacedLight> lights;
     for (const Node& node : scene.nodes) {
@@ -180,8 +193,10 @@ plan::PlanInput planInput(const Scene& scene, const View& view, const RenderSett
     for (const DrawItem& item : drawItems(scene)) {
         input.draws.push_back(drawView(scene, item, view, clipFromWorld, settings));
     }
-    for (const io::GltfSkin& skin : scene.skins) {
-        input.jointBytes += skin.joints.size() * 3 * sizeof(glm::vec4);
+    const std::vector<bool> worn = wornSkins(scene);
+    for (std::size_t s = 0; s < worn.size(); ++s) {
+        input.jointBytes +=
+            worn[s] ? scene.skins[s].joints.size() * kTexelsPerJoint * sizeof(glm::vec4) : 0U;
     }
     input.environment = environment;
     input.lightCount = static_cast<int>(placedLights(scene).size());

@@ -22,6 +22,11 @@ struct DrawItem {
 /// Every drawable, in node order: the order of PlanInput::draws.
 [[nodiscard]] std::vector<DrawItem> drawItems(const Scene& scene);
 
+inline constexpr std::size_t kTexelsPerJoint = 3; ///< rows of an affine matrix
+
+/// Which skins a node wears: the others' joints are not uploaded.
+[[nodiscard]] std::vector<bool> wornSkins(const Scene& scene);
+
 /// The lights of a scene, at most the blocks' maximum; the rest is counted in `left`.
 struct PlacedLight {
     const Node* node;

@@ -10,8 +10,6 @@
 namespace lodestar::scene {
 namespace {
 
-constexpr std::size_t kTexelsPerJoint = 3; ///< rows of an affine matrix
-
 glm::vec3 unitOr(const glm::vec3& v, const glm::vec3& otherwise) {
     const float length = glm::length(v);
     return length > 0.0f ? v / length : otherwise;
@@ -33,6 +31,11 @@ void makeFlatNormals(const io::GltfPrimitive& primitive, MorphedVertices& vertic
             vertices.normals[corner[k]] = normal;
         }
     }
+}
+
+/// The determinant's sign of the matrix whose rows begin here.
+bool mirrors(const glm::vec4* rows) {
+    return glm::dot(glm::cross(glm::vec3(rows[0]), glm::vec3(rows[1])), glm::vec3(rows[2])) < 0.0f;
 }
 
 /// All joints of all skins that nodes wear; `firstTexels` says where each skin's begin.
@@ -97,12 +100,8 @@ MorphedVertices morph(const io::GltfPrimitive& primitive, const std::vector<floa
 core::Result<GpuDeformation> GpuDeformation::make(gl::Device& device, const Scene& scene,
                                                   const std::vector<DrawItem>& items) {
     GpuDeformation result;
-    std::vector<bool> worn(scene.skins.size());
+    const std::vector<bool> worn = wornSkins(scene);
     for (const DrawItem& item : items) {
-        const MeshComponent& component = componentOf(scene, item);
-        if (component.skin != io::kNone) {
-            worn[static_cast<std::size_t>(component.skin)] = true;
-        }
         std::optional<Morph>& morph = result.morphs_.emplace_back();
         if (!primitiveOf(scene, item).targets.empty()) {
             morph.emplace().vertices = gl::VertexArray(device);
@@ -137,7 +136,6 @@ void GpuDeformation::describe(const Scene& scene, const std::vector<DrawItem>& i
                               plan::PlanInput& input) {
     joints_ = jointRows(scene, firstTexels_);
     input.jointsMoved = joints_ != uploadedJoints_;
-    input.jointBytes = joints_.size() * sizeof(glm::vec4);
     for (std::size_t i = 0; i < morphs_.size(); ++i) {
         if (morphs_[i]) {
             input.draws[i].weightsChanged =
@@ -212,6 +210,16 @@ void GpuDeformation::bind() const {
 float GpuDeformation::firstTexel(int skin) const {
     return skin == io::kNone ? 0.0f
                              : static_cast<float>(firstTexels_[static_cast<std::size_t>(skin)]);
+}
+
+bool GpuDeformation::mirrored(int skin) const {
+    const std::size_t begin = firstTexels_[static_cast<std::size_t>(skin)];
+    const std::size_t end = firstTexels_[static_cast<std::size_t>(skin) + 1];
+    std::size_t count = 0;
+    for (std::size_t i = begin; i < end; i += kTexelsPerJoint) {
+        count += mirrors(&joints_[i]) ? 1U : 0U;
+    }
+    return 2 * kTexelsPerJoint * count > end - begin;
 }
 
 const gl::VertexArray* GpuDeformation::vertices(std::size_t item) const {

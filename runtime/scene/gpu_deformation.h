@@ -44,6 +44,8 @@ public:
     void bind() const;
     /// Where a skin's joints begin in the buffer texture; 0 for none.
     [[nodiscard]] float firstTexel(int skin) const;
+    /// Whether a skin's joints turn most of what follows them inside out, in the pose described.
+    [[nodiscard]] bool mirrored(int skin) const;
     /// The vertices of a draw item that is morphed; null for others.
     [[nodiscard]] const gl::VertexArray* vertices(std::size_t item) const;
 
@@ -59,7 +61,7 @@ private:
                             Morph& target);
 
     std::vector<std::size_t> firstTexels_; ///< by skin
-    std::vector<glm::vec4> joints_;        ///< three rows a joint, as now
+    std::vector<glm::vec4> joints_;        ///< three rows a joint, in the pose described
     std::vector<glm::vec4> uploadedJoints_;
     std::optional<gl::Buffer> jointBuffer_;
     gl::Texture jointTexture_;

@@ -131,13 +131,6 @@ void setLights(const Scene& scene, blocks::LodestarFrame& block) {
     block.lightCount = glm::vec4(static_cast<float>(count));
 }
 
-bool mostlyMirrored(const std::vector<glm::mat4>& matrices) {
-    const auto mirrored = std::count_if(matrices.begin(), matrices.end(), [](const glm::mat4& m) {
-        return glm::determinant(glm::mat3(m)) < 0.0f;
-    });
-    return 2 * static_cast<std::size_t>(mirrored) > matrices.size();
-}
-
 /// The part of clip space that a tile shows, stretched over the whole of it.
 glm::mat4 tileFromClip(const glm::ivec4& tile, int width, int height) {
     const glm::vec2 size(static_cast<float>(width), static_cast<float>(height));
@@ -276,9 +269,7 @@ blocks::LodestarDraw Renderer::State::drawBlock(const DrawItem& item,
         const int skin =
             std::get<MeshComponent>(node.components[static_cast<std::size_t>(item.component)]).skin;
         draw.skin.x = deformation.firstTexel(skin);
-        sign = mostlyMirrored(jointMatrices(scene, scene.skins[static_cast<std::size_t>(skin)]))
-                   ? -1.0f
-                   : 1.0f;
+        sign = deformation.mirrored(skin) ? -1.0f : 1.0f;
     }
     draw.skin.w = sign;
     return draw;

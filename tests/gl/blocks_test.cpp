@@ -27,14 +27,26 @@ struct Field {
 
 gl::Defines everything(int specular, int diffuse, bool on) {
     gl::Defines defines;
-    for (const char* name :
-         {"LODESTAR_NORMALS", "LODESTAR_TANGENTS", "LODESTAR_VERTEX_COLORS",
-          "LODESTAR_BASE_COLOR_TEXTURE", "LODESTAR_METALLIC_ROUGHNESS_TEXTURE",
-          "LODESTAR_NORMAL_TEXTURE", "LODESTAR_OCCLUSION_TEXTURE", "LODESTAR_EMISSIVE_TEXTURE",
-          "LODESTAR_BLINN_PHONG", "LODESTAR_EXPONENT_TEXTURE", "LODESTAR_ALPHA_MASK",
-          "LODESTAR_ALPHA_BLEND", "LODESTAR_PUNCTUAL_LIGHTS", "LODESTAR_ENVIRONMENT",
-          "LODESTAR_BIAS_VERTEX", "LODESTAR_TEXTURE_TRANSFORM", "LODESTAR_SPECULAR_TEXTURE",
-          "LODESTAR_SPECULAR_COLOR_TEXTURE"}) {
+    for (const char* name : {"LODESTAR_NORMALS",
+                             "LODESTAR_TANGENTS",
+                             "LODESTAR_VERTEX_COLORS",
+                             "LODESTAR_BASE_COLOR_TEXTURE",
+                             "LODESTAR_METALLIC_ROUGHNESS_TEXTURE",
+                             "LODESTAR_NORMAL_TEXTURE",
+                             "LODESTAR_OCCLUSION_TEXTURE",
+                             "LODESTAR_EMISSIVE_TEXTURE",
+                             "LODESTAR_BLINN_PHONG",
+                             "LODESTAR_EXPONENT_TEXTURE",
+                             "LODESTAR_ALPHA_MASK",
+                             "LODESTAR_ALPHA_BLEND",
+                             "LODESTAR_PUNCTUAL_LIGHTS",
+                             "LODESTAR_ENVIRONMENT",
+                             "LODESTAR_BIAS_VERTEX",
+                             "LODESTAR_TEXTURE_TRANSFORM",
+                             "LODESTAR_SPECULAR_TEXTURE",
+                             "LODESTAR_SPECULAR_COLOR_TEXTURE",
+                             "LODESTAR_SKINNING",
+                             "LODESTAR_SECOND_JOINTS"}) {
         defines.emplace_back(name, on ? "1" : "0");
     }
     // Unlit leaves all the rest out; EverySingleFeatureCompiles switches it on.

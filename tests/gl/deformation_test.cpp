@@ -138,6 +138,8 @@ protected:
         const scene::View view = *scene::chooseView(scene, {}, 1.0f);
         auto moving = renderer(scene);
         core::Image before;
+        std::uint64_t uploaded = 0;
+        std::uint64_t forecast = 0;
         for (const double share : {0.13, 0.41, 0.77}) {
             scene::pose(scene, 0, share * last);
             const scene::Scene fixed = baked(scene);
@@ -147,6 +149,8 @@ protected:
             EXPECT_TRUE(drawn->plan.runs(effect));
             EXPECT_FALSE(reference->plan.runs(effect));
             expectHeld(scene, fixed);
+            uploaded = drawn->counters.uploadBytes;
+            forecast = costOf(drawn->plan, effect).uploadBytes;
             const core::Image picture = display(drawn->radiance);
             EXPECT_LE(testing::compare(picture, display(reference->radiance), 1.0 / 255.0).largest,
                       1.0 / 255.0)
@@ -161,9 +165,21 @@ protected:
         auto again = moving->render(view, settings());
         ASSERT_TRUE(again.ok());
         EXPECT_FALSE(again->plan.runs(effect));
+        EXPECT_GT(forecast, 0u);
+        EXPECT_EQ(uploaded - again->counters.uploadBytes, forecast);
         auto third = moving->render(view, settings());
         EXPECT_EQ(third->counters.uploadBytes, again->counters.uploadBytes);
         EXPECT_EQ(display(again->radiance).pixels(), before.pixels());
+    }
+
+    static plan::Cost costOf(const plan::EffectPlan& plan, const std::string& name) {
+        for (const plan::Effect& effect : plan.effects) {
+            if (effect.effect == name) {
+                return effect.cost;
+            }
+        }
+        ADD_FAILURE() << "no effect " << name;
+        return {};
     }
 
     /// The boxes that cull and frame hold every vertex.
@@ -305,13 +321,25 @@ TEST_F(Deformation, KhronosMorphsMatchTheirVertices) {
 }
 
 TEST_F(Deformation, WhatIsOutOfViewIsNotUploaded) {
-    scene::Scene scene = scene::buildScene(sixJoints());
-    scene::CameraRequest away;
-    away.eye = glm::vec3(0.0f, 0.0f, 5.0f);
-    away.target = glm::vec3(0.0f, 0.0f, 9.0f);
-    auto frame = renderer(scene)->render(*scene::chooseView(scene, away, 1.0f), settings());
-    ASSERT_TRUE(frame.ok());
-    EXPECT_FALSE(frame->plan.runs("skinning"));
+    for (const auto& [file, effect] :
+         {std::pair(sixJoints(), "skinning"), std::pair(twoTargets(false), "morphs")}) {
+        scene::Scene scene = scene::buildScene(file);
+        scene::CameraRequest away;
+        away.eye = glm::vec3(0.0f, 0.0f, 5.0f);
+        away.target = glm::vec3(0.0f, 0.0f, 9.0f);
+        const scene::View view = *scene::chooseView(scene, away, 1.0f);
+        auto moving = renderer(scene);
+        ASSERT_TRUE(moving->render(view, settings()).ok()); // makes the environment ready
+        scene::pose(scene, 0, 0.5);
+        auto moved = moving->render(view, settings());
+        auto still = moving->render(view, settings());
+        ASSERT_TRUE(moved.ok() && still.ok());
+        EXPECT_FALSE(moved->plan.runs(effect));
+        EXPECT_EQ(moved->counters.uploadBytes, still->counters.uploadBytes) << effect;
+        auto seen = moving->render(*scene::chooseView(scene, {}, 1.0f), settings());
+        ASSERT_TRUE(seen.ok());
+        EXPECT_TRUE(seen->plan.runs(effect));
+    }
 }
 
 } // namespace

@@ -43,6 +43,37 @@ protected:
 {"camera":0,"name":"right","translation":[3,0,0]}]})";
         return path;
     }
+    /// A camera that three animations move along x: "far" 0 to 100 in 2 s, "near" 1 to 2 in 1 s,
+    /// "pose" to 7 by its only key.
+    std::string movingFile() {
+        const float numbers[] = {0, 2, 0, 1, 0, 0, 0, 0, 100, 0, 0, 1, 0, 0, 2, 0, 0, 7, 0, 0};
+        const std::string bytes(reinterpret_cast<const char*>(numbers), sizeof numbers);
+        std::ofstream(folder_.file("moving.bin"), std::ios::binary) << bytes;
+        const auto animation = [](const char* name, int input, int output) {
+            return std::string(R"({"name":")") + name +
+                   R"(","channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}],)" +
+                   R"("samplers":[{"input":)" + std::to_string(input) + R"(,"output":)" +
+                   std::to_string(output) + "}]}";
+        };
+        const std::string path = folder_.file("moving.gltf");
+        std::ofstream(path) << R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"scene":0,
+"cameras":[{"type":"perspective","perspective":{"yfov":0.5,"znear":0.1}}],
+"nodes":[{"camera":0,"translation":[-5,0,0]}],
+"buffers":[{"uri":"moving.bin","byteLength":80}],
+"bufferViews":[{"buffer":0,"byteLength":8},{"buffer":0,"byteOffset":8,"byteLength":8},
+{"buffer":0,"byteOffset":20,"byteLength":24},{"buffer":0,"byteOffset":44,"byteLength":24},
+{"buffer":0,"byteOffset":68,"byteLength":12},{"buffer":0,"byteLength":4}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[2]},
+{"bufferView":1,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[1]},
+{"bufferView":2,"componentType":5126,"count":2,"type":"VEC3"},
+{"bufferView":3,"componentType":5126,"count":2,"type":"VEC3"},
+{"bufferView":4,"componentType":5126,"count":1,"type":"VEC3"},
+{"bufferView":5,"componentType":5126,"count":1,"type":"SCALAR","min":[0],"max":[0]}],
+"animations":[)" << animation("far", 0, 2)
+                            << "," << animation("near", 1, 3) << "," << animation("pose", 5, 4)
+                            << "]}";
+        return path;
+    }
     void press(Key key, platform::Modifiers modifiers = {}) {
         viewer_->handle(platform::KeyEvent{key, true, false, modifiers});
         viewer_->handle(platform::KeyEvent{key, false, false, modifiers});
@@ -91,6 +122,60 @@ TEST_F(ViewerTest, CamerasAndScenesGoRound) {
     EXPECT_EQ(viewer_->text().lines.front(), "first.gltf: First");
     press(Key::PageUp);
     EXPECT_EQ(viewer_->text().lines.front(), "first.gltf: Other");
+}
+
+TEST_F(ViewerTest, AnimationsPlayScrubAndGoRound) {
+    drop(movingFile());
+    ASSERT_FALSE(viewer_->text().messageIsError) << viewer_->text().message;
+    const scene::View rest = viewer_->view();
+    press(Key::Space); // "far", of 2 seconds: a camera that goes to x = 100
+    EXPECT_EQ(viewer_->patience(), 0.0);
+    viewer_->advance(0.5);
+    EXPECT_FLOAT_EQ(viewer_->view().position.x, 25.0f);
+    viewer_->advance(1.75); // round its end
+    EXPECT_FLOAT_EQ(viewer_->view().position.x, 12.5f);
+    press(Key::Space);
+    viewer_->advance(0.5);
+    EXPECT_FLOAT_EQ(viewer_->view().position.x, 12.5f) << "it is paused";
+    press(Key::Period);
+    EXPECT_FLOAT_EQ(viewer_->view().position.x, 15.0f);
+    press(Key::Comma);
+    press(Key::Comma);
+    EXPECT_FLOAT_EQ(viewer_->view().position.x, 10.0f);
+    press(Key::N); // "near" begins at its start
+    EXPECT_FLOAT_EQ(viewer_->view().position.x, 1.0f);
+    press(Key::N); // of one key: a pose, which does not play
+    press(Key::Space);
+    viewer_->setSize(0, 0, 1.0f); // takes the frames that are still wanted out of the question
+    viewer_->advance(1.0);
+    EXPECT_FLOAT_EQ(viewer_->view().position.x, 7.0f);
+    EXPECT_NE(viewer_->text().lines.at(5).find("paused"), std::string::npos);
+    press(Key::N);
+    press(Key::PageDown); // read again: at rest
+    EXPECT_EQ(viewer_->view().position, rest.position);
+}
+
+TEST_F(ViewerTest, GoesOnFromTheSceneAndCameraOfTheCommandLine) {
+    ViewerOptions options;
+    options.scene.scene = folder_.file("first.gltf");
+    options.scene.sceneName = "Other";
+    options.scene.camera = "right";
+    options.scene.size = "64x48";
+    auto loaded = load(options.scene);
+    ASSERT_TRUE(loaded.ok()) << loaded.error().message();
+    viewer_.reset(); // one overlay at a time
+    viewer_ = std::move(*Viewer::make(device(), std::move(*loaded), options));
+    EXPECT_EQ(viewer_->text().lines.front(), "first.gltf: Other");
+    press(Key::PageDown);
+    EXPECT_EQ(viewer_->text().lines.front(), "first.gltf: First");
+    options.scene.sceneName.clear();
+    loaded = load(options.scene);
+    ASSERT_TRUE(loaded.ok());
+    viewer_.reset(); // one overlay at a time
+    viewer_ = std::move(*Viewer::make(device(), std::move(*loaded), options));
+    EXPECT_FLOAT_EQ(viewer_->view().position.x, 3.0f);
+    press(Key::C);
+    EXPECT_FLOAT_EQ(viewer_->view().position.x, -3.0f);
 }
 
 TEST_F(ViewerTest, PointerAndHeldKeysMoveTheCameraAndHomeResetsIt) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Given this scene, exactly these effects. No GL.
+#include <set>
+#include <string>
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -194,6 +197,38 @@ TEST(Plan, UnlitDrawsAskForNoLight) {
         EXPECT_EQ(has(both.drawFeatures[i], Feature::Environment), lit);
         EXPECT_EQ(has(both.drawFeatures[i], Feature::PunctualLights), lit);
     }
+}
+
+TEST(Plan, JointsAndTargetsAreMadeReadyForWhatIsSeenAndHasChanged) {
+    const auto decided = [](bool visible, bool changed) {
+        DrawView draw = ball();
+        draw.visible = visible;
+        draw.features |= bit(Feature::Skinning);
+        draw.morphBytes = 1000;
+        draw.weightsChanged = changed;
+        PlanInput input = scene({draw});
+        input.jointsMoved = changed;
+        input.jointBytes = 480;
+        return plan(input);
+    };
+    const EffectPlan run = decided(true, true);
+    EXPECT_TRUE(run.runs("skinning"));
+    EXPECT_EQ(effect(run, "skinning").cost.uploadBytes, 480u);
+    EXPECT_TRUE(run.runs("morphs"));
+    EXPECT_EQ(effect(run, "morphs").cost.uploadBytes, 1000u);
+    const EffectPlan still = decided(true, false);
+    const EffectPlan unseen = decided(false, true);
+    const EffectPlan without = plan(scene({ball()}));
+    std::set<std::string> reasons;
+    for (const char* name : {"skinning", "morphs"}) {
+        for (const EffectPlan* skipped : {&still, &unseen}) {
+            EXPECT_EQ(effect(*skipped, name).decision, Decision::Skip) << name;
+            EXPECT_EQ(effect(*skipped, name).cost.uploadBytes, 0u) << name;
+            reasons.insert(effect(*skipped, name).reason);
+        }
+        EXPECT_EQ(effect(without, name).decision, Decision::Skip) << name;
+    }
+    EXPECT_EQ(reasons.size(), 4u) << "each skip says why in its own words";
 }
 
 // The plan is pure: the same input gives the same plan, and every visible draw is drawn once.
