@@ -37,6 +37,35 @@ void drawHelp() {
     }
 }
 
+void drawMessage(const OverlayText& text, float wrap) {
+    ImGui::PushStyleColor(ImGuiCol_Text, text.messageIsError ? ImVec4(1.0f, 0.55f, 0.45f, 1.0f)
+                                                             : ImVec4(1.0f, 1.0f, 1.0f, 1.0f));
+    ImGui::PushTextWrapPos(wrap);
+    ImGui::TextUnformatted(text.message.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
+/// The help stands alone: what lies under it would shine through.
+void layOut(const OverlayText& text, const ImVec2& size, float margin) {
+    if (text.help) {
+        begin("##help", {0.5f * size.x, 0.5f * size.y}, {0.5f, 0.5f});
+        drawHelp();
+        ImGui::End();
+    } else if (!text.lines.empty()) {
+        begin("##info", {margin, margin}, {0.0f, 0.0f});
+        for (const std::string& line : text.lines) {
+            ImGui::TextUnformatted(line.c_str());
+        }
+        ImGui::End();
+    }
+    if (!text.message.empty()) {
+        begin("##message", {margin, size.y - margin}, {0.0f, 1.0f});
+        drawMessage(text, size.x - 3.0f * margin);
+        ImGui::End();
+    }
+}
+
 } // namespace
 
 Overlay::Overlay() {
@@ -73,32 +102,15 @@ void Overlay::draw(const OverlayText& text, int width, int height, float content
     useFontFor(contentScale);
     ImGuiIO& io = ImGui::GetIO();
     const ImVec2 size(static_cast<float>(width), static_cast<float>(height));
-    const float margin = 8.0f * fontScale_;
     io.DisplaySize = size;
     io.DeltaTime = 1.0f / 60.0f; // nothing here depends on time
     ImGui_ImplOpenGL3_NewFrame();
-    ImGui::NewFrame();
-    if (!text.lines.empty()) {
-        begin("##info", {margin, margin}, {0.0f, 0.0f});
-        for (const std::string& line : text.lines) {
-            ImGui::TextUnformatted(line.c_str());
-        }
-        ImGui::End();
-    }
-    if (text.help) {
-        begin("##help", {0.5f * size.x, 0.5f * size.y}, {0.5f, 0.5f});
-        drawHelp();
-        ImGui::End();
-    }
-    if (!text.message.empty()) {
-        begin("##message", {margin, size.y - margin}, {0.0f, 1.0f});
-        ImGui::PushStyleColor(ImGuiCol_Text, text.messageIsError ? ImVec4(1.0f, 0.55f, 0.45f, 1.0f)
-                                                                 : ImVec4(1.0f, 1.0f, 1.0f, 1.0f));
-        ImGui::PushTextWrapPos(size.x - 3.0f * margin);
-        ImGui::TextUnformatted(text.message.c_str());
-        ImGui::PopTextWrapPos();
-        ImGui::PopStyleColor();
-        ImGui::End();
+    // A window that fits its content is measured in one frame, and its table in another, before it
+    // is shown as it should be; a viewer at rest draws only one.
+    for (int pass = 0; pass < 3; ++pass) {
+        ImGui::NewFrame();
+        layOut(text, size, 8.0f * fontScale_);
+        ImGui::EndFrame();
     }
     ImGui::Render();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());

@@ -50,7 +50,7 @@ io::GltfFile fourOf(const io::GltfPrimitive& shape,
     for (int i = 0; i < 4; ++i) {
         io::GltfPrimitive part = shape;
         part.material = i;
-        file.meshes.push_back({"shape", {part}});
+        file.meshes.push_back({"shape", {part}, {}});
         file.materials.push_back(materials[static_cast<std::size_t>(i)]);
         io::GltfNode node;
         node.mesh = i;
