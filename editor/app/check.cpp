@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/check_scene.h"

@@ -4,7 +4,9 @@
 // exit status when it has run.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace lodestar::app {
 

@@ -2,6 +2,9 @@
 #include <cstdio>
 #include <memory>
 
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
 #include "app/command.h"
 #include "app/commands.h"
 #include "app/plan_json.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/plan_json.h"
+#include <nlohmann/json.hpp>
 
 #include <set>
 

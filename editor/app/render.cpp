@@ -5,6 +5,9 @@
 #include <filesystem>
 #include <memory>
 
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
 #include "app/command.h"
 #include "app/commands.h"
 #include "app/display_image.h"

@@ -7,6 +7,8 @@
 
 #include <glm/trigonometric.hpp>
 
+#include <CLI/CLI.hpp>
+
 #include "app/command.h"
 #include "io/gltf.h"
 

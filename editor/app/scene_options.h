@@ -6,12 +6,14 @@
 #include <optional>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include "io/environment_file.h"
 #include "scene/animation.h"
 #include "scene/camera.h"
 #include "scene/renderer.h"
+
+namespace CLI {
+class App;
+}
 
 namespace lodestar::app {
 

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <limits>
 
+#include <nlohmann/json.hpp>
+
 #include "app/command.h"
 #include "app/display_image.h"
 #include "app/plan_json.h"

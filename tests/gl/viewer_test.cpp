@@ -3,6 +3,8 @@
 // The viewer without its window: what it answers to events.
 #include <fstream>
 
+#include <nlohmann/json.hpp>
+
 #include "app/viewer.h"
 #include "support/gl_fixture.h"
 #include "support/run.h"
