@@ -202,6 +202,8 @@ RsrmTexels encode(const RsrmLayout& layout, const RsrmBake& bake, std::vector<gl
     LODESTAR_EXPECT(bake.exponents == bakedExponents(layout) &&
                         bake.columns == static_cast<std::size_t>(layout.columns),
                     "the bake is of the layout");
+    LODESTAR_EXPECT(gradient.size() == bake.columns,
+                    "the unfiltered gradient has a value a column");
     const auto rows = static_cast<std::size_t>(layout.rows);
     RsrmTexels texels{layout, {}, std::vector<float>(rows, 0.0f), std::move(gradient)};
     const Planes planes = layout.fitted ? fittedPlanes(layout, bake, texels.logScales)

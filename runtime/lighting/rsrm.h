@@ -30,7 +30,8 @@ struct RsrmTexels {
     std::vector<glm::vec3> gradient;
 };
 
-/// Texels from a bake. @pre the bake is of the layout's own exponents and columns
+/// Texels from a bake. @pre the bake is of the layout's own exponents and columns, the gradient has
+/// a value a column
 /// @param gradient the unfiltered gradient at the columns, as unfiltered() makes it
 [[nodiscard]] RsrmTexels encode(const RsrmLayout& layout, const RsrmBake& bake,
                                 std::vector<glm::vec3> gradient);

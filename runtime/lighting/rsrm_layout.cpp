@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#define LODESTAR_DOUBLE_PRECISION
 #include "lighting/rsrm_layout.h"
 
 #include <cmath>
@@ -7,17 +8,13 @@
 
 #include "core/contract.h"
 
+#include "lodestar/rsrm.glsl"
+
 namespace lodestar::lighting {
 
 namespace {
 
 constexpr int kFitPerRow = 2; ///< places of the fit in a step from row to row
-
-double refined(double theta) {
-    const double h = std::sin(0.5 * theta);
-    const double z = std::cos(theta);
-    return 0.5 * std::sqrt(h) + 0.25 * (1.0 - std::copysign(std::sqrt(std::abs(z)), z));
-}
 
 /// The angle of u2 by halving: u2 rises from 0 to 1.
 double refinedAngle(double u) {
@@ -25,20 +22,13 @@ double refinedAngle(double u) {
     double high = std::numbers::pi;
     for (int step = 0; step < 80; ++step) {
         const double middle = 0.5 * (low + high);
-        (refined(middle) < u ? low : high) = middle;
+        const double coordinate = shader_double::lodestar_rsrmRefinedColumn(std::sin(0.5 * middle));
+        (coordinate < u ? low : high) = middle;
     }
     return 0.5 * (low + high);
 }
 
 } // namespace
-
-double columnCoordinate(RsrmColumns map, double theta) {
-    if (map == RsrmColumns::Refined) {
-        return refined(theta);
-    }
-    const double h = std::sin(0.5 * theta);
-    return h * h;
-}
 
 std::vector<double> columnAngles(RsrmColumns map, int columns) {
     LODESTAR_EXPECT(columns >= 2, "a map has two columns at least");

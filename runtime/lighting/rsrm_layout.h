@@ -55,10 +55,7 @@ inline constexpr RsrmLayout kRsrmPublished{
 inline constexpr RsrmLayout kRsrmPublishedColumns{
     RsrmColumns::UniformHeight, 256, 8, RsrmEncoding::Unorm8, false, false, false};
 
-/// Column coordinate u in [0, 1] of an angle from the axis: u2, or (1 - z) / 2 for UniformHeight.
-[[nodiscard]] double columnCoordinate(RsrmColumns map, double theta);
-
-/// The angle of each column from the axis, radians: where u = j / (columns - 1) for Refined, at
+/// The angle of each column from the axis, radians: where u2 = j / (columns - 1) for Refined, at
 /// texel centres for UniformHeight.
 [[nodiscard]] std::vector<double> columnAngles(RsrmColumns map, int columns);
 

@@ -9,6 +9,7 @@
 #include "core/contract.h"
 #include "core/quadrature.h"
 #include "lighting/vector_clones.h"
+#include "lighting/zonal.h"
 
 namespace lodestar::lighting {
 
@@ -38,15 +39,17 @@ double excessOfShare(double psi) {
     return std::sin(psi) / psi - std::cos(psi);
 }
 
-/// The angle beyond which the lobe is below e^-45 of what it is at angle a1.
-double cutAngle(double a1, double s) {
-    const double sine = std::sin(0.5 * a1);
-    const double v = -std::expm1(std::log1p(-2.0 * sine * sine) - kCut / (s + 1.0));
-    return 2.0 * std::asin(std::sqrt(std::min(0.5 * v, 1.0)));
+/// log cos a with its digits about 0, -infinity where rounding puts a at pi / 2. @param a [0, pi /
+/// 2]
+double logCosine(double a) {
+    const double half = std::sin(0.5 * a);
+    return std::log1p(-std::min(2.0 * half * half, 1.0));
 }
 
-double ringArea(double a, double b) {
-    return std::sin(0.5 * (a + b)) * std::sin(0.5 * (b - a));
+/// The angle beyond which the lobe is below e^-45 of what it is at angle a1.
+double cutAngle(double a1, double s) {
+    const double v = -std::expm1(logCosine(a1) - kCut / (s + 1.0));
+    return 2.0 * std::asin(std::sqrt(std::min(0.5 * v, 1.0)));
 }
 
 constexpr std::size_t kStrip = 8; ///< degrees added at once
@@ -90,7 +93,9 @@ CapIntegral::CapIntegral(double thetaO, double thetaB, double s)
     // a = a1 + (a2 - a1) sin^2(pi x / 2) takes the square roots off both ends; where the lobe's own
     // end at pi / 2 is the nearer one, x = end (1 - (1 - y)^3) smooths its power too (RSRM-3).
     const bool cubic = s < kSharedNodes && a2 > 0.5 * kPi;
-    const double xEnd = end >= a2 ? 1.0 : 2.0 / kPi * std::asin(std::sqrt((end - a1) / (a2 - a1)));
+    // Just below pi / 2 rounding may put the end before a1.
+    const double covered = std::max(end - a1, 0.0);
+    const double xEnd = end >= a2 ? 1.0 : 2.0 / kPi * std::asin(std::sqrt(covered / (a2 - a1)));
     count_ = kNodes;
     for (std::size_t i = 0; i < kNodes; ++i) {
         const double y = rule().nodes[i];
@@ -109,8 +114,7 @@ CapIntegral::CapIntegral(double thetaO, double thetaB, double s)
         const double da = (a2 - a1) * kPi * sine * cosine * dx;
         share_[i] = rule().weights[i] * psi / kPi * std::sin(a) * da;
         excess_[i] = share_[i] * std::sin(a) * std::sin(thetaO) * excessOfShare(psi);
-        const double half = std::sin(0.5 * a);
-        logCosine_[i] = std::log1p(-2.0 * half * half);
+        logCosine_[i] = logCosine(a);
     }
 }
 

@@ -15,11 +15,6 @@ namespace {
 
 constexpr int kNodes = 8;
 
-/// Half the height of the ring between two angles, (cos a - cos b) / 2, without cancellation.
-double ringArea(double a, double b) {
-    return std::sin(0.5 * (a + b)) * std::sin(0.5 * (b - a));
-}
-
 /// Mean radiance of the ring, smooth within.
 glm::dvec3 ringMean(const RadianceProfile& profile, const core::GaussRule& rule, double a,
                     double b) {
@@ -35,6 +30,10 @@ glm::dvec3 ringMean(const RadianceProfile& profile, const core::GaussRule& rule,
 }
 
 } // namespace
+
+double ringArea(double a, double b) {
+    return std::sin(0.5 * (a + b)) * std::sin(0.5 * (b - a));
+}
 
 Zones zonesFor(LightKind kind) {
     return {kind == LightKind::Sky ? ZoneSpacing::EqualHeight : ZoneSpacing::Quartic, 256};

@@ -30,6 +30,10 @@ struct Zones {
 /// The count + 1 edges as angles from the axis, radians, from 0 to pi. @pre count as above
 [[nodiscard]] std::vector<double> zoneEdges(const Zones& zones);
 
+/// The share of the sphere that the ring between two angles from the axis covers, (cos a - cos b) /
+/// 2 without cancellation. @param a, b radians, 0 <= a <= b <= pi
+[[nodiscard]] double ringArea(double a, double b);
+
 /// Mean radiance of the rings between edges (angles from the axis, strictly ascending) by Gauss
 /// quadrature in the angle, split at the gradient's stops. Each piece is weighted by its exact
 /// area, so that a constant is exact and the rings' energy is the gradient's to 1e-9.

@@ -96,14 +96,10 @@ struct RsrmError {
     double atExponent = 0.0;
 };
 
-inline RsrmError measure(const lighting::RsrmTexels& texels, const RsrmTruth& truth,
-                         double least = 0.0) {
+inline RsrmError measure(const lighting::RsrmTexels& texels, const RsrmTruth& truth) {
     RsrmError worst;
     for (std::size_t e = 0; e < truth.exponents.size(); ++e) {
         const double s = truth.exponents[e];
-        if (s < least) {
-            continue;
-        }
         const double* row = truth.values.data() + e * truth.thetas.size();
         const double peak = *std::max_element(row, row + truth.thetas.size());
         for (std::size_t i = 0; i < truth.thetas.size(); ++i) {

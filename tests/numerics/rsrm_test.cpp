@@ -13,6 +13,7 @@
 #include "lodestar/rsrm.glsl"
 #include "numerics/oracles.h"
 #include "numerics/rsrm_sources.h"
+#include "support/throwing_contract.h"
 
 namespace lodestar::testing {
 
@@ -26,10 +27,14 @@ RsrmKernels& kernels() {
     return cache;
 }
 
+/// The grid of docs/derivations/rsrm.md's table: angles besides the axis itself, and exponents.
+constexpr int kAngles = 600;
+constexpr int kExponents = 73;
+
 const RsrmTruth& truth(std::size_t source) {
-    static const std::array<RsrmTruth, 3> all = {RsrmTruth(kRsrmSources[0], 300, 37),
-                                                 RsrmTruth(kRsrmSources[1], 300, 37),
-                                                 RsrmTruth(kRsrmSources[2], 300, 37)};
+    static const std::array<RsrmTruth, 3> all = {RsrmTruth(kRsrmSources[0], kAngles, kExponents),
+                                                 RsrmTruth(kRsrmSources[1], kAngles, kExponents),
+                                                 RsrmTruth(kRsrmSources[2], kAngles, kExponents)};
     return all[source];
 }
 
@@ -47,14 +52,24 @@ ZonalRadiance constant(const Zones& zones, double value) {
                                            glm::dvec3(value, 0.5 * value, 0.0))};
 }
 
-/// Worst errors of the three sources, printed.
-std::array<RsrmError, 3> errorsOf(const char* name, const RsrmLayout& layout) {
+/// A row of docs/derivations/rsrm.md's table: of the peak and local, for the sun, the glow, the
+/// sky.
+using DocumentedErrors = std::array<std::array<double, 2>, 3>;
+
+/// Worst errors of the three sources, printed and held to the documented ones, which are rounded to
+/// the last digit: half a unit of it, and as much for compilers that round otherwise.
+std::array<RsrmError, 3> errorsOf(const char* name, const RsrmLayout& layout,
+                                  const DocumentedErrors& documented) {
     std::array<RsrmError, 3> errors;
     std::printf("%-24s", name);
     for (std::size_t i = 0; i < errors.size(); ++i) {
         errors[i] = measure(mapOf(layout, kRsrmSources[i]), truth(i));
         std::printf("  %s %.4f of the peak, %.3f local", kRsrmSources[i].name, errors[i].ofPeak,
                     errors[i].local);
+        const auto [ofPeak, local] = documented[i];
+        EXPECT_NEAR(errors[i].ofPeak, ofPeak, 1e-4) << name << " " << kRsrmSources[i].name;
+        EXPECT_NEAR(errors[i].local, local, 1e-3 * std::max(local, 1.0))
+            << name << " " << kRsrmSources[i].name;
     }
     std::printf("\n");
     return errors;
@@ -69,9 +84,14 @@ TEST(RsrmOracles, ColumnAndRow) {
         const shader::vec3 r(static_cast<float>(std::sin(theta)), 0.0f,
                              static_cast<float>(std::cos(theta)));
         EXPECT_NEAR(shader::lodestar_rsrmHalfChord(r, {0.0f, 0.0f, 1.0f}), sine, 2e-7);
-        // The zones of a sun are equal in the quartic coordinate.
+        // The zones of a sun are equal in the quartic coordinate: it says which zone holds theta.
         const double quartic = one["out"]["quartic"];
-        EXPECT_NEAR(std::sqrt(std::sin(0.5 * theta)), quartic, 1e-12);
+        for (const int count : {7, 256, 4096}) {
+            const std::vector<double> edges = zoneEdges({ZoneSpacing::Quartic, count});
+            const auto zone = static_cast<std::size_t>(quartic * count);
+            EXPECT_LE(edges.at(zone), theta) << count;
+            EXPECT_GE(edges.at(zone + 1), theta) << count;
+        }
     }
     for (const auto& one : oracleCases("rsrm_row")) {
         const auto& in = one["in"];
@@ -195,6 +215,19 @@ TEST(RsrmBake, ABlackMapAndABrightOneAreFinite) {
     }
 }
 
+// The row past the last is read at every column: a map without it is the caller's bug.
+TEST(RsrmLayouts, AMapNeedsTheUnfilteredGradientOfItsColumns) {
+    RsrmLayout tiny = kRsrmSmall;
+    tiny.columns = 8;
+    tiny.rows = 3;
+    const auto kernel = kernels().get(tiny, LightKind::Sky);
+    const RsrmBake bake = kernel->bake(constant(kernel->zones(), 1.0));
+    const ThrowingContracts contracts;
+    EXPECT_THROW((void)encode(tiny, bake, {}), ContractBroken);
+    EXPECT_THROW((void)encode(tiny, bake, std::vector<glm::vec3>(7)), ContractBroken);
+    EXPECT_NO_THROW((void)encode(tiny, bake, std::vector<glm::vec3>(8)));
+}
+
 TEST(RsrmKernels, OneKernelAKindWhoeverAsks) {
     RsrmKernels cache;
     RsrmLayout tiny = kRsrmSmall;
@@ -216,14 +249,18 @@ TEST(RsrmKernels, OneKernelAKindWhoeverAsks) {
 // The goals: 0.8 % of the peak at 16 KB, 1.3 % at 8 KB, and 35 % of the value itself wherever it is
 // at least 1 % of the peak.
 TEST(RsrmLayouts, SixteenKilobytes) {
-    for (const RsrmError& error : errorsOf("rsrm 170x24 unorm10", kRsrm)) {
+    const auto errors =
+        errorsOf("rsrm 170x24 unorm10", kRsrm, {{{.0057, .154}, {.0069, .109}, {.0028, .010}}});
+    for (const RsrmError& error : errors) {
         EXPECT_LE(error.ofPeak, 0.008) << error.atTheta << " deg, s " << error.atExponent;
         EXPECT_LE(error.local, 0.35);
     }
 }
 
 TEST(RsrmLayouts, EightKilobytes) {
-    for (const RsrmError& error : errorsOf("small 120x17 unorm10", kRsrmSmall)) {
+    const auto errors = errorsOf("small 120x17 unorm10", kRsrmSmall,
+                                 {{{.0112, .320}, {.0123, .216}, {.0041, .018}}});
+    for (const RsrmError& error : errors) {
         EXPECT_LE(error.ofPeak, 0.013) << error.atTheta << " deg, s " << error.atExponent;
         EXPECT_LE(error.local, 0.35);
     }
@@ -231,15 +268,34 @@ TEST(RsrmLayouts, EightKilobytes) {
 
 // The plain layout costs 1.1 % for the convenience of having no scales.
 TEST(RsrmLayouts, OneFetchWithoutScales) {
-    for (const RsrmError& error : errorsOf("plain 128x16 half", kRsrmPlain)) {
+    const auto errors =
+        errorsOf("plain 128x16 half", kRsrmPlain, {{{.0096, .264}, {.0111, .171}, {.0043, .018}}});
+    for (const RsrmError& error : errors) {
         EXPECT_LE(error.ofPeak, 0.012) << error.atTheta << " deg, s " << error.atExponent;
         EXPECT_LE(error.local, 0.35);
     }
 }
 
+// What the others are judged by on a GPU: at most an eighth of the 16 KB goal on the sun. On the
+// sky it has the error of 256 zones, which no storage mends.
+TEST(RsrmLayouts, TheReferenceIsFinerThanAllOthers) {
+    const auto errors = errorsOf("reference 512x64 float", kRsrmReference,
+                                 {{{.0007, .010}, {.0015, .021}, {.0027, .010}}});
+    EXPECT_LE(errors[0].ofPeak, 0.008 / 8.0);
+}
+
+// As published, weights too: about the pole their sums fall short of 1 where the lobe is narrower
+// than a zone, so that the sky, which the storage alone keeps to 3 %, is lost as well.
+TEST(RsrmLayouts, ThePublishedWeightsLoseTheSkyToo) {
+    const auto errors = errorsOf("published 256x8 unorm8", kRsrmPublished,
+                                 {{{.8982, 12.154}, {.5186, 22.157}, {.1686, .642}}});
+    EXPECT_GT(errors[2].ofPeak, 0.1);
+}
+
 // As published: most of a sun's highlight is lost between the first texel centre and the pole.
 TEST(RsrmLayouts, ThePublishedStorageLosesTheSun) {
-    const auto errors = errorsOf("published columns", kRsrmPublishedColumns);
+    const auto errors = errorsOf("published columns", kRsrmPublishedColumns,
+                                 {{{.9406, 9.385}, {.5901, 14.713}, {.0147, .072}}});
     EXPECT_GT(errors[0].ofPeak, 0.8);
     EXPECT_GT(errors[1].ofPeak, 0.4);
     EXPECT_LT(errors[2].ofPeak, 0.03);

@@ -194,6 +194,31 @@ TEST(RsrmWeights, RowsSumToOneAndAreNeverNegative) {
     }
 }
 
+// The cap begins where the lobe ends, a1 = pi / 2 less a few roundings: cos a1 is at most 2e-15,
+// and no more than cos^{s+1} a1 is in the cap, at a height above its edge of at most 2.
+TEST(RsrmWeights, ACapThatTouchesTheLobesEdgeIsEmpty) {
+    const auto expectEmpty = [](double thetaO, double thetaB, double s) {
+        const CapIntegral cap = smallSide(thetaO, thetaB, s);
+        EXPECT_GE(cap.mass(s), 0.0) << thetaO << " " << thetaB << " " << s;
+        EXPECT_LE(cap.mass(s), 2e-15) << thetaO << " " << thetaB << " " << s;
+        EXPECT_LE(std::abs(cap.firstExcess(s)), 4e-15) << thetaO << " " << thetaB << " " << s;
+        const auto weights = ringWeights(thetaO, std::vector<double>{0.0, thetaB, kPi}, s);
+        EXPECT_LE(weights[0], 2e-15);
+        EXPECT_EQ(weights[1], 1.0 - weights[0]);
+    };
+    for (const double s : {0.0, 0.5, 2.0, 16.0, 2048.0, 2e4, 1e6, 1e7}) {
+        expectEmpty(2.0041751594432746, 0.43337883264838345, s);
+        for (int i = 0; i < 200; ++i) {
+            const double thetaO = kPi * (0.5 + (i + 0.5) / 400.0);
+            double thetaB = thetaO - 0.5 * kPi;
+            for (int ulp = 0; ulp < 4; ++ulp) {
+                expectEmpty(thetaO, thetaB, s);
+                thetaB = std::nextafter(thetaB, kPi);
+            }
+        }
+    }
+}
+
 // A linear gradient a + b z is filtered to a + b lambda_1 z_o.
 TEST(RsrmWeights, LinearRadianceIsExact) {
     const std::vector<double> nodes = {0.0, 0.4, 1.1, kPi / 2.0, 2.2, kPi};
