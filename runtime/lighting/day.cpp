@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <string>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "core/contract.h"
+#include "lighting/rsrm.h"
 
 namespace lodestar::lighting {
 
@@ -46,11 +49,30 @@ void repairAxis(glm::dvec3& axis, core::Tally& warnings) {
 
 void repairTint(glm::dvec3& tint, core::Tally& warnings) {
     for (int c = 0; c < 3; ++c) {
-        if (!(tint[c] >= 0.0 && tint[c] <= 1e9)) {
-            tint[c] = tint[c] > 0.0 ? 1e9 : 0.0;
+        if (!(tint[c] >= 0.0 && tint[c] <= kMaxRadiance)) {
+            tint[c] = tint[c] > 0.0 ? kMaxRadiance : 0.0;
             warnings.add("tint outside [0, 1e9], clamped");
         }
     }
+}
+
+/// Stops whose radiance times the tint lies above the range are lowered. @pre both are repaired
+void repairTinted(DayKey& key, core::Tally& warnings) {
+    std::uint64_t tooLarge = 0;
+    for (GradientStop& stop : key.gradient.stops) {
+        const glm::dvec3 radiance = radianceOf(stop);
+        // Divided, so that what is repaired is in range when it is read again.
+        const glm::dvec3 most = glm::dvec3(kMaxRadiance) / key.tint;
+        const glm::dvec3 lowered = glm::min(radiance, most);
+        if (lowered != radiance) {
+            for (int c = 0; c < 3; ++c) {
+                tooLarge += radiance[c] > most[c] ? 1U : 0U;
+            }
+            stop.color = lowered;
+            stop.ev = 0.0;
+        }
+    }
+    warnings.add("radiance times tint above 1e9, set to 1e9", tooLarge);
 }
 
 core::Result<void> repairPath(SunPath& path) {
@@ -184,6 +206,7 @@ core::Result<DayLight> repaired(DayLight light, core::Tally& warnings) {
         }
         key.gradient = std::move(*gradient);
         repairTint(key.tint, warnings);
+        repairTinted(key, warnings);
         if (key.axis) {
             repairAxis(*key.axis, warnings);
         }
@@ -193,8 +216,12 @@ core::Result<DayLight> repaired(DayLight light, core::Tally& warnings) {
 }
 
 double sunRadius(const Gradient& gradient) {
-    LODESTAR_EXPECT(!gradient.stops.empty(), "a gradient has stops");
-    return gradient.stops.back().at * kPi / 180.0;
+    const std::vector<GradientStop>& stops = gradient.stops;
+    LODESTAR_EXPECT(!stops.empty(), "a gradient has stops");
+    const auto edge =
+        std::adjacent_find(stops.begin(), stops.end(),
+                           [](const auto& a, const auto& b) { return a.at > 0.0 && a.at == b.at; });
+    return (edge == stops.end() ? stops.back() : *edge).at * kPi / 180.0;
 }
 
 DayMoment momentAt(const DayLight& light, double hour) {
@@ -226,6 +253,17 @@ ZonalRadiance keyRadiance(const DayLight& light, std::size_t key, const Zones& z
     return radiance;
 }
 
+std::vector<glm::vec3> keyGradient(const DayLight& light, std::size_t key,
+                                   const RsrmLayout& layout) {
+    LODESTAR_EXPECT(key < light.keys.size(), "the light has the key");
+    std::vector<glm::vec3> gradient =
+        unfiltered(RadianceProfile(light.keys[key].gradient, light.kind), layout);
+    for (glm::vec3& mean : gradient) {
+        mean *= glm::vec3(light.keys[key].tint);
+    }
+    return gradient;
+}
+
 RsrmBake blended(const RsrmBake& a, const RsrmBake& b, double t, double factor) {
     LODESTAR_EXPECT(a.exponents == b.exponents && a.columns == b.columns,
                     "bakes of one kernel are blended");
@@ -234,6 +272,18 @@ RsrmBake blended(const RsrmBake& a, const RsrmBake& b, double t, double factor) 
     const auto second = static_cast<float>(t * factor);
     for (std::size_t i = 0; i < result.planes.size(); ++i) {
         result.planes[i] = first * a.planes[i] + second * b.planes[i];
+    }
+    return result;
+}
+
+std::vector<glm::vec3> blended(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b,
+                               double t, double factor) {
+    LODESTAR_EXPECT(a.size() == b.size(), "gradients of one layout are blended");
+    std::vector<glm::vec3> result = a;
+    const auto first = static_cast<float>((1.0 - t) * factor);
+    const auto second = static_cast<float>(t * factor);
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        result[i] = first * a[i] + second * b[i];
     }
     return result;
 }

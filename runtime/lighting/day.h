@@ -76,9 +76,10 @@ struct DayLight {
     std::vector<DayKey> keys;
 };
 
-/// A light put in order: hours in [0, 24) ascending, gradients by `repaired`, axes unit, tints
-/// finite and >= 0. Hours outside are wrapped and counted; of keys at one hour the last listed
-/// holds, the others are counted; a zero or non-finite axis becomes +Y and is counted.
+/// A light put in order: hours in [0, 24) ascending, gradients by `repaired`, axes unit, tints and
+/// stops' radiance times the tint in [0, 1e9]. Hours outside are wrapped and counted; of keys at
+/// one hour the last listed holds, the others are counted; a zero or non-finite axis becomes +Y and
+/// is counted; so is each tint, and each channel of a stop that is too bright under its tint.
 /// @errors InputRefused, with a JSON pointer: no keys; an hour that is not finite; a gradient's; a
 /// path out of range or with a north that has no part across +Y
 [[nodiscard]] core::Result<DayLight> repaired(DayLight light, core::Tally& warnings);
@@ -96,12 +97,24 @@ struct DayMoment {
 /// A key's zonal radiance, tint included: what is baked once an edit.
 [[nodiscard]] ZonalRadiance keyRadiance(const DayLight& light, std::size_t key, const Zones& zones);
 
-/// (1 - t) a + t b of two bakes or radiances of one shape, times a factor.
+/// A key's unfiltered gradient at a layout's columns, tint included: what `encode` takes beside the
+/// bake.
+[[nodiscard]] std::vector<glm::vec3> keyGradient(const DayLight& light, std::size_t key,
+                                                 const RsrmLayout& layout);
+
+/// (1 - t) a + t b of two bakes, unfiltered gradients or radiances of one shape, times a factor. A
+/// map takes a bake and a gradient of the same t and factor.
 [[nodiscard]] RsrmBake blended(const RsrmBake& a, const RsrmBake& b, double t, double factor = 1.0);
+[[nodiscard]] std::vector<glm::vec3> blended(const std::vector<glm::vec3>& a,
+                                             const std::vector<glm::vec3>& b, double t,
+                                             double factor = 1.0);
 [[nodiscard]] ZonalRadiance blended(const ZonalRadiance& a, const ZonalRadiance& b, double t,
                                     double factor = 1.0);
 
-/// The angular radius of a sun's gradient: its last stop. @pre a sun's key in order
+/// The angular radius of a sun's disc: where its gradient first steps (two stops at one place
+/// beyond 0), so that a glow around it does not count; its last stop where there is no step.
+/// Radians.
+/// @pre a sun's key in order
 [[nodiscard]] double sunRadius(const Gradient& gradient);
 
 } // namespace lodestar::lighting

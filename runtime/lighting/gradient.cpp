@@ -15,7 +15,6 @@ namespace lodestar::lighting {
 
 namespace {
 
-constexpr double kMaxRadiance = 1e9;
 constexpr double kRadians = std::numbers::pi / 180.0;
 
 /// Written so that NaN becomes 0.
@@ -23,6 +22,8 @@ double repairedNumber(double value) {
     return value > 0.0 ? std::min(value, kMaxRadiance) : 0.0;
 }
 
+// The curve of lodestar_srgbFromLinear and its inverse, which stop at 1: a display does, radiance
+// does not.
 double srgbFromLinear(double x) {
     return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
 }
@@ -87,6 +88,20 @@ double monotoneSlope(double h0, double d0, double h1, double d1) {
     return (w0 + w1) / (w0 / d0 + w1 / d1);
 }
 
+/// Turns a list that runs towards the axis around. A Constant stop held up to the next one listed,
+/// which now comes before it: radiances move one place on, the last listed keeps its own place too.
+void turnAround(Gradient& gradient) {
+    std::vector<GradientStop>& stops = gradient.stops;
+    std::reverse(stops.begin(), stops.end());
+    if (gradient.interpolation == GradientInterpolation::Constant) {
+        stops.insert(stops.begin(), stops.front());
+        for (std::size_t i = 1; i + 1 < stops.size(); ++i) {
+            stops[i].color = stops[i + 1].color;
+            stops[i].ev = stops[i + 1].ev;
+        }
+    }
+}
+
 core::Result<void> checkedPlaces(const std::vector<GradientStop>& stops, LightKind kind) {
     if (stops.empty()) {
         return core::refused("a gradient needs at least one stop", "/stops");
@@ -122,7 +137,7 @@ core::Result<Gradient> repaired(Gradient gradient, LightKind kind, core::Tally& 
     };
     if (!std::is_sorted(stops.begin(), stops.end(), nearer)) {
         if (std::is_sorted(stops.rbegin(), stops.rend(), nearer)) {
-            std::reverse(stops.begin(), stops.end());
+            turnAround(gradient);
         } else {
             std::stable_sort(stops.begin(), stops.end(), nearer);
             warnings.add("gradient stops out of order, sorted");

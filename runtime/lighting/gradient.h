@@ -13,14 +13,17 @@
 
 namespace lodestar::lighting {
 
+/// The range of radiance is [0, kMaxRadiance].
+inline constexpr double kMaxRadiance = 1e9;
+
 /// What a gradient is painted on: the whole sphere about the zenith, or a sun about its axis.
 enum class LightKind { Sky, Sun };
 
 enum class GradientInterpolation {
     Linear,
-    Constant, ///< a stop holds up to the next one
+    Constant, ///< a stop holds up to the next one listed
     Smooth,   ///< t^2 (3 - 2 t) between stops: level at each
-    Cubic,    ///< a monotone cubic (Fritsch and Carlson 1980): smooth, never beyond its stops
+    Cubic,    ///< a monotone cubic (Fritsch and Butland 1984): smooth, never beyond its stops
 };
 
 /// The space that stops are interpolated in, applied to radiance as it is, also above 1: sRGB's
@@ -41,8 +44,9 @@ struct Gradient {
 
 /// A gradient put in order: stops from the axis outwards (a sky's from +90 down), radiance in
 /// [0, 1e9]. Stops at one place keep the order listed. A list that runs the other way as a whole
-/// is read backwards; any other disorder is sorted and counted, so is each radiance repaired: NaN
-/// and negative values become 0, larger ones 1e9.
+/// is read backwards, so that a Constant one still holds each stop up to the next one listed (it
+/// gains a stop: a step where the last one's reach begins); any other disorder is sorted and
+/// counted, so is each radiance repaired: NaN and negative values become 0, larger ones 1e9.
 /// @errors InputRefused, with a JSON pointer: no stops; `at` not a number or out of range
 [[nodiscard]] core::Result<Gradient> repaired(Gradient gradient, LightKind kind,
                                               core::Tally& warnings);

@@ -39,10 +39,13 @@ TEST(DayOracles, TimeWrapsAndBlendsOverTheShorterArc) {
         EXPECT_NEAR(blendedHour(in["a"], in["b"], in["t"]), one["out"]["hour"].get<double>(), 1e-12)
             << in;
     }
-    EXPECT_LT(wrappedHour(-1e-9), 24.0);
-    EXPECT_LT(wrappedHour(-1e-17), 24.0);
+    EXPECT_NEAR(wrappedHour(-1e-9), 24.0 - 1e-9, 1e-14); // a rounding of 24
+    EXPECT_EQ(wrappedHour(-1e-17), 0.0);                 // 24 less that rounds to 24
     EXPECT_EQ(wrappedHour(24.0), 0.0);
-    EXPECT_EQ(wrappedHour(1e300), wrappedHour(1e300));
+    for (const double hour : {1e300, -1e300, 1e17, -1e17}) {
+        EXPECT_GE(wrappedHour(hour), 0.0) << hour;
+        EXPECT_LT(wrappedHour(hour), 24.0) << hour;
+    }
     EXPECT_EQ(wrappedHour(std::numeric_limits<double>::quiet_NaN()), 0.0);
 }
 
@@ -59,7 +62,10 @@ TEST(DayOracles, SlerpAndItsAngles) {
         for (const double t : {0.0, 0.25, 0.5, 1.0}) {
             const glm::dvec3 v = slerpAxis(a, b, t);
             EXPECT_NEAR(glm::length(v), 1.0, 1e-12);
-            EXPECT_NEAR(glm::dot(a, v), std::cos(t * angle), 1e-6);
+            // An arc tangent keeps its digits at both ends. Worst is the widest angle: a and b each
+            // times 1 / sin(2e-4), whose roundings of 1e-16 the sum does not lose: 1e-12.
+            EXPECT_NEAR(std::atan2(glm::length(glm::cross(a, v)), glm::dot(a, v)), t * angle, 1e-12)
+                << angle << " " << t;
         }
     }
 }
@@ -126,6 +132,68 @@ TEST(Day, RepairsAndRefuses) {
     EXPECT_EQ(repaired(light, warnings).error().where, "/path/north");
 }
 
+/// Radiance times tint stays in the range; what is in range is left alone.
+TEST(Day, BrightStopsUnderBrightTintsAreLoweredAndCounted) {
+    DayLight light{LightKind::Sun, {0.0, 1.0, 0.0}, {}, {keyAt(6.0, 3e8)}};
+    light.keys[0].gradient.stops.push_back({1.0, glm::dvec3(2.0), 1.0});
+    light.keys[0].tint = {7.0, 1.0, 0.0};
+    core::Tally warnings;
+    const auto result = repaired(light, warnings);
+    ASSERT_TRUE(result.ok());
+    // The red of two stops.
+    EXPECT_EQ(warnings.counts().at("radiance times tint above 1e9, set to 1e9"), 2u);
+    EXPECT_EQ(warnings.counts().size(), 1u);
+    const auto& stops = result->keys[0].gradient.stops;
+    EXPECT_NEAR(radianceOf(stops[0]).r * 7.0, 1e9, 1e-6);
+    EXPECT_EQ(radianceOf(stops[1]).g, 3e8);
+    EXPECT_EQ(radianceOf(stops[2]), glm::dvec3(4.0));
+    const ZonalRadiance zonal = keyRadiance(*result, 0, zonesFor(LightKind::Sun));
+    EXPECT_NEAR(zonal.means[0].r, 1e9, 1e-6);
+    inOrder(*result); // which expects no warning the second time
+    light.keys[0] = keyAt(6.0, 1e9);
+    light.keys[0].tint = glm::dvec3(1e9);
+    ASSERT_TRUE(repaired(light, warnings).ok());
+    EXPECT_NEAR(keyRadiance(*repaired(light, warnings), 0, zonesFor(LightKind::Sun)).means[0].r,
+                1e9, 1e-6);
+}
+
+/// A constant sky has one radiance at every exponent, the mirror's too, through tints, blends and
+/// factors: where the row past the last knew nothing of them, a mirror showed another sky.
+TEST(Day, TintsBlendsAndFactorsReachTheMirror) {
+    DayLight light{LightKind::Sky, {0.0, 1.0, 0.0}, {}, {keyAt(6.0, 4.0), keyAt(18.0, 1.0)}};
+    light.keys[0].tint = {1.0, 0.5, 0.25};
+    light.keys[1].tint = {0.125, 2.0, 8.0};
+    light = inOrder(light);
+    RsrmLayout layout = kRsrmSmall;
+    layout.columns = 40;
+    layout.rows = 6;
+    const RsrmKernel kernel(zonesFor(LightKind::Sky),
+                            columnAngles(layout.columnMap, layout.columns), bakedExponents(layout));
+    const RsrmBake bakes[] = {kernel.bake(keyRadiance(light, 0, kernel.zones())),
+                              kernel.bake(keyRadiance(light, 1, kernel.zones()))};
+    const std::vector<glm::vec3> gradients[] = {keyGradient(light, 0, layout),
+                                                keyGradient(light, 1, layout)};
+    for (const double t : {0.0, 0.3, 1.0}) {
+        const RsrmTexels texels = encode(layout, blended(bakes[0], bakes[1], t, 0.7),
+                                         blended(gradients[0], gradients[1], t, 0.7));
+        const glm::dvec3 sky =
+            0.7 * ((1.0 - t) * 4.0 * light.keys[0].tint + t * 1.0 * light.keys[1].tint);
+        for (const double s : {8.0, 1e5, HUGE_VAL}) {
+            for (const double theta : {0.0, 1.0, 3.0}) {
+                const glm::dvec3 got(rsrmRadiance(texels, theta, s));
+                for (int c = 0; c < 3; ++c) {
+                    // Ten bits of a root, half a step of 1/1023 of the brightest channel's,
+                    // doubled; a mirror's are floats.
+                    const double most = std::max({sky.r, sky.g, sky.b});
+                    EXPECT_NEAR(got[c], sky[c],
+                                std::isinf(s) ? 1e-6 * sky[c] : std::sqrt(sky[c] * most) / 1023.0)
+                        << t << " s " << s << " channel " << c;
+                }
+            }
+        }
+    }
+}
+
 // The blend of bakes is the bake of the blend: floats of both round 256 products, 1e-6.
 TEST(Day, BlendingBakesIsBakingTheBlend) {
     DayLight light{LightKind::Sun, {0.0, 1.0, 0.0}, {}, {keyAt(6.0, 1e4), keyAt(18.0, 0.0)}};
@@ -181,6 +249,19 @@ TEST(Day, ASunFadesOverItsDiameterBelowTheHorizon) {
     EXPECT_NEAR(sunVisibility(-radius, radius), 0.5, 1e-12);
     EXPECT_EQ(sunVisibility(-2.0 * radius, radius), 0.0);
     EXPECT_EQ(sunVisibility(-1e-9, 0.0), 0.0);
+    // A sun with a glow all around it sets with its disc, one without a step with its last stop.
+    DayKey glowing = keyAt(12, 1);
+    glowing.gradient.stops.push_back({0.27, glm::dvec3(0.01), 0.0});
+    glowing.gradient.stops.push_back({180.0, glm::dvec3(0.0), 0.0});
+    EXPECT_EQ(sunRadius(glowing.gradient), radius);
+    const DayLight glow =
+        inOrder({LightKind::Sun, {0, 1, 0}, SunPath{0.0, 81, {0, 0, -1}}, {glowing}});
+    EXPECT_EQ(momentAt(glow, 12.0).visibility, 1.0);
+    EXPECT_EQ(momentAt(glow, 0.0).visibility, 0.0);
+    glowing.gradient.stops.erase(glowing.gradient.stops.begin() + 1);
+    EXPECT_EQ(sunRadius(glowing.gradient), kPi);
+    glowing.gradient.stops.insert(glowing.gradient.stops.begin(), glowing.gradient.stops[0]);
+    EXPECT_EQ(sunRadius(glowing.gradient), kPi); // a step on the axis is no disc's edge
     DayLight sun =
         inOrder({LightKind::Sun, {0, 1, 0}, SunPath{0.0, 81, {0, 0, -1}}, {keyAt(12, 1)}});
     EXPECT_EQ(momentAt(sun, 12.0).visibility, 1.0);

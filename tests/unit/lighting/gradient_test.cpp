@@ -72,6 +72,45 @@ TEST(Gradient, TwoStopsAtOnePlaceStepInTheOrderListed) {
     }
 }
 
+// "Up to the next one" is towards the zenith for a sky listed from the ground up.
+TEST(Gradient, AConstantListHoldsTowardsTheNextOneListed) {
+    core::Tally warnings;
+    const auto turned =
+        repaired({{grey(-60, 3), grey(-10, 2), grey(30, 1)}, GradientInterpolation::Constant},
+                 LightKind::Sky, warnings);
+    ASSERT_TRUE(turned.ok());
+    EXPECT_TRUE(warnings.empty());
+    const RadianceProfile sky(*turned, LightKind::Sky);
+    for (const auto& [elevation, value] : {std::pair{-80.0, 3.0},
+                                           {-59.0, 3.0},
+                                           {-11.0, 3.0},
+                                           {-9.0, 2.0},
+                                           {29.0, 2.0},
+                                           {31.0, 1.0},
+                                           {90.0, 1.0}}) {
+        EXPECT_EQ(skyAt(sky, elevation), value) << elevation;
+    }
+    // Listed downwards the same stops hold the other way.
+    const auto down =
+        profileOf({{grey(30, 1), grey(-10, 2), grey(-60, 3)}, GradientInterpolation::Constant},
+                  LightKind::Sky);
+    EXPECT_EQ(skyAt(down, -9.0), 1.0);
+    EXPECT_EQ(skyAt(down, -11.0), 2.0);
+    // In order now: what is repaired again stays.
+    const auto again = repaired(*turned, LightKind::Sky, warnings);
+    ASSERT_EQ(again->stops.size(), turned->stops.size());
+    for (std::size_t i = 0; i < again->stops.size(); ++i) {
+        EXPECT_EQ(again->stops[i].at, turned->stops[i].at);
+        EXPECT_EQ(again->stops[i].color, turned->stops[i].color);
+    }
+    // A sun listed inwards, black beyond its outermost stop.
+    const auto sun = profileOf(
+        {{grey(3, 1), {1, glm::dvec3(5), 1.0}}, GradientInterpolation::Constant}, LightKind::Sun);
+    EXPECT_EQ(sun.radiance(0.5 * kRadians).r, 10.0);
+    EXPECT_EQ(sun.radiance(1.5 * kRadians).r, 1.0);
+    EXPECT_EQ(sun.radiance(3.5 * kRadians).r, 0.0);
+}
+
 TEST(Gradient, RefusesWhatHasNoPlace) {
     core::Tally warnings;
     EXPECT_EQ(repaired({}, LightKind::Sky, warnings).error().where, "/stops");
