@@ -7,15 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <list>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "core/contract.h"
 #include "lighting/float4.h"
+#include "lighting/table_cache.h"
 #include "lighting/vector_clones.h"
 #include "lodestar/cube.glsl"
 
@@ -119,25 +118,16 @@ LobeTable makeTable(double effectiveWidth, int width, int sourceWidth) {
     return table;
 }
 
-/// The tables of a few chains, for any number of threads.
+/// The table of a level, from a cache of a few chains' that any number of threads may use.
 std::shared_ptr<const LobeTable> lobeTable(double effectiveWidth, int width, int sourceWidth) {
     constexpr std::size_t kCachedTables = 16;
-    static std::mutex mutex;
-    static std::list<std::shared_ptr<const LobeTable>> tables;
-    {
-        const std::lock_guard lock(mutex);
-        for (auto i = tables.begin(); i != tables.end(); ++i) {
-            if ((*i)->effectiveWidth == effectiveWidth && (*i)->sourceWidth == sourceWidth) {
-                tables.splice(tables.begin(), tables, i);
-                return tables.front();
-            }
-        }
-    }
-    auto table = std::make_shared<const LobeTable>(makeTable(effectiveWidth, width, sourceWidth));
-    const std::lock_guard lock(mutex);
-    tables.push_front(table);
-    if (tables.size() > kCachedTables) {
-        tables.pop_back();
+    static TableCache<LobeTable> cache(kCachedTables);
+    auto table = cache.find([&](const LobeTable& kept) {
+        return kept.effectiveWidth == effectiveWidth && kept.sourceWidth == sourceWidth;
+    });
+    if (table == nullptr) {
+        table = std::make_shared<const LobeTable>(makeTable(effectiveWidth, width, sourceWidth));
+        cache.keep(table);
     }
     return table;
 }

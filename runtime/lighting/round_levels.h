@@ -11,10 +11,11 @@ namespace lodestar::lighting {
 inline constexpr int kWidestRound = 16;
 
 /// Replaces the levels of a chain of tent mips below level 0 whose faces are at most kWidestRound
-/// wide: each texel becomes the mean over the cosine lobe that, read bilinearly, is the lobe for
-/// which lodestar_tentLevel reads the level. Texels of the cube projection differ in size and
-/// shape, so that coarse tents are three-armed stars about the cube's corners; lobes are round
-/// everywhere. The sums of the new levels over the sphere are not corrected.
+/// wide, read from level 0 and from tents of at least that width alone: each texel becomes the mean
+/// over the cosine lobe that, read bilinearly, is the lobe for which lodestar_tentLevel reads the
+/// level. Texels of the cube projection differ in size and shape, so that coarse tents are
+/// three-armed stars about the cube's corners; lobes are round everywhere. The sums of the new
+/// levels over the sphere are not corrected.
 void roundCoarseLevels(Cubemap& chain);
 
 /// The Phong exponent for which lodestar_tentLevel reads a level of effective width w 2^-k, without

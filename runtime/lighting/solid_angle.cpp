@@ -2,11 +2,10 @@
 #include "lighting/solid_angle.h"
 
 #include <algorithm>
-#include <list>
-#include <mutex>
 
 #include "core/contract.h"
 #include "lighting/cubemap.h"
+#include "lighting/table_cache.h"
 
 namespace lodestar::lighting {
 
@@ -16,36 +15,6 @@ namespace {
 /// the cache stays below 2 x 3 MiB.
 constexpr std::size_t kCachedTables = 24;
 constexpr int kWidestCached = 1024;
-
-/// Least recently used tables by width.
-class TableCache {
-public:
-    std::shared_ptr<const TexelTable> get(int width) {
-        {
-            const std::lock_guard lock(mutex_);
-            for (auto i = tables_.begin(); i != tables_.end(); ++i) {
-                if ((*i)->width() == width) {
-                    tables_.splice(tables_.begin(), tables_, i);
-                    return tables_.front();
-                }
-            }
-        }
-        auto table =
-            std::make_shared<const TexelTable>(width); // outside the lock; twice does no harm
-        if (width <= kWidestCached) {
-            const std::lock_guard lock(mutex_);
-            tables_.push_front(table);
-            if (tables_.size() > kCachedTables) {
-                tables_.pop_back();
-            }
-        }
-        return table;
-    }
-
-private:
-    std::mutex mutex_;
-    std::list<std::shared_ptr<const TexelTable>> tables_;
-};
 
 } // namespace
 
@@ -110,8 +79,15 @@ TexelTable::TexelTable(int width) : width_(width) {
 }
 
 std::shared_ptr<const TexelTable> texelTable(int width) {
-    static TableCache cache;
-    return cache.get(width);
+    static TableCache<TexelTable> cache(kCachedTables);
+    auto table = cache.find([width](const TexelTable& kept) { return kept.width() == width; });
+    if (table == nullptr) {
+        table = std::make_shared<const TexelTable>(width);
+        if (width <= kWidestCached) {
+            cache.keep(table);
+        }
+    }
+    return table;
 }
 
 } // namespace lodestar::lighting

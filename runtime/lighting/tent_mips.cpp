@@ -254,23 +254,25 @@ void fillTentMips(Cubemap& chain) {
     const int levels = chain.levelCount();
     TentReducer reducer(chain);
     glm::dvec4 wanted(0.0);
-    for (int k = 0; k < levels; ++k) {
+    bool more = true; // round levels read no tents of fewer than kWidestRound texels
+    for (int k = 0; more; ++k) {
+        more = k + 1 < levels && chain.width(k + 1) >= kWidestRound;
         // The sum of level k is known once it has been read for level k + 1; only then is it
         // scaled.
         glm::dvec4 sum;
-        if (k + 1 < levels && chain.width(k) % 2 == 0) {
+        if (more && chain.width(k) % 2 == 0) {
             sum = reducer.reduce(k + 1);
         } else {
             sum = sphereMean(chain, k) * (4.0 * std::numbers::pi);
-            if (k + 1 < levels) {
+            if (more) {
                 reduceTent(chain, k + 1);
             }
         }
         if (k == 0) {
             wanted = sum;
-            continue;
+        } else {
+            scaleLevel(chain, k, wanted, sum);
         }
-        scaleLevel(chain, k, wanted, sum);
     }
     roundCoarseLevels(chain);
     for (int k = levels - 1; k > 0 && chain.width(k) <= kWidestRound; --k) {

@@ -8,6 +8,7 @@
 
 #include "lighting/cube_seams.h"
 #include "lighting/environment.h"
+#include "lighting/round_levels.h"
 #include "lighting/solid_angle.h"
 #include "support/cubes.h"
 
@@ -35,7 +36,9 @@ double exactMean(const Cubemap& map, int level, int channel) {
     return sum / weight;
 }
 
-/// A constant stays constant to a few ulp: 16 taps and one division, then the mean's correction.
+/// A constant stays constant to a few ulp: 16 taps and one division, then the mean's correction. A
+/// round level adds float weights along runs of up to n texels and over up to 6 n runs, for n
+/// texels of the level that it reads, at most 32 here: 7 x 32 roundings of 6e-8.
 TEST(Mips, ConstantStaysConstant) {
     const glm::vec4 value(0.3f, 7.7f, 1234.5f, 1.0f);
     for (const int n : kWidths) {
@@ -45,7 +48,9 @@ TEST(Mips, ConstantStaysConstant) {
             for (int k = 0; k < chain.levelCount(); ++k) {
                 for (const glm::vec4& texel : chain.level(k)) {
                     for (int c = 0; c < 4; ++c) {
-                        ASSERT_NEAR(texel[c], value[c], 1e-6f * value[c]) << n << " level " << k;
+                        const bool round = k > 0 && chain.width(k) <= kWidestRound;
+                        ASSERT_NEAR(texel[c], value[c], (round ? 1.4e-5f : 1e-6f) * value[c])
+                            << n << " level " << k;
                     }
                 }
             }
@@ -166,6 +171,95 @@ TEST(Mips, TentFollowsItsDefinition) {
             const double expected = static_cast<double>(defined.level(0)[i].x) * scale;
             // 16 products and sums in float: 16 * 6e-8, and the tables' rounding.
             EXPECT_NEAR(static_cast<double>(chain.level(1)[i].x), expected, 3e-6 * expected);
+        }
+    }
+}
+
+/// A round level's texel by its definition, in double (MIP-12): the mean over the cosine lobe about
+/// its centre of the level that is read, less what lies below 1e-4 of the lobe's peak.
+glm::dvec4 definedRound(const Cubemap& source, const glm::dvec3& r, double exponent) {
+    const int n = source.width();
+    const std::vector<double> omega = texelSolidAngles(n);
+    glm::dvec4 sum(0.0);
+    double weights = 0.0;
+    for (int face = 0; face < 6; ++face) {
+        for (int i = 0; i < n * n; ++i) {
+            const double x = glm::dot(testing::texelDirection(face, i % n, i / n, n), r);
+            const double lobe = x > 0.0 ? std::max(std::pow(x, exponent) - 1e-4, 0.0) : 0.0;
+            const double w = lobe * omega[static_cast<std::size_t>(i)];
+            sum += w * glm::dvec4(source.texel(face, i % n, i / n));
+            weights += w;
+        }
+    }
+    return sum / weights;
+}
+
+/// The level of 16 texels is made from tents twice as wide, the smaller ones from tents of 16,
+/// which the chain no longer holds; narrow maps from level 0.
+TEST(Mips, RoundLevelsFollowTheirDefinition) {
+    for (const int n : {4, 16, 17, 64}) {
+        const Cubemap base = randomCube(n, 21);
+        const Cubemap chain = tentMips(base);
+        std::vector<Cubemap> tents{base}; // their scale cancels in the round levels' own
+        while (tents.back().width() % 2 == 0 && tents.back().width() > 16) {
+            const Cubemap& fine = tents.back();
+            const int m = fine.width() / 2;
+            Cubemap defined(m);
+            for (int i = 0; i < 6 * m * m; ++i) {
+                const int face = i / (m * m);
+                defined.texel(face, i % m, i / m % m) =
+                    glm::vec4(definedTent(fine, face, i % m, i / m % m));
+            }
+            tents.push_back(std::move(defined));
+        }
+        for (int k = 1; k < chain.levelCount(); ++k) {
+            const int m = chain.width(k);
+            if (m > 16) {
+                continue;
+            }
+            const Cubemap& source = m == 16 ? tents[tents.size() - 2] : tents.back();
+            const double s = exponentOfTentLevel(std::ldexp(n, -k));
+            const double ratio = static_cast<double>(m) / source.width();
+            const std::vector<double> omega = texelSolidAngles(m);
+            Cubemap defined(m);
+            for (int i = 0; i < 6 * m * m; ++i) {
+                const int face = i / (m * m);
+                const double hat = 0.6 * omega[static_cast<std::size_t>(i % (m * m))] *
+                                   (1.0 / 6.0 + 0.25 * ratio * ratio);
+                const double exponent =
+                    m == 1 ? 0.0 : std::max(1.0 / (1.0 / (s + 2.0) - hat) - 2.0, 0.0);
+                defined.texel(face, i % m, i / m % m) = glm::vec4(definedRound(
+                    source, testing::texelDirection(face, i % m, i / m % m, m), exponent));
+            }
+            const double scale = exactMean(base, 0, 0) / exactMean(defined, 0, 0);
+            for (std::size_t i = 0; i < defined.level(0).size(); ++i) {
+                const double expected = static_cast<double>(defined.level(0)[i].x) * scale;
+                // Sums in float along runs of up to 32 texels and over up to 6 x 32 runs, 6e-8
+                // each, of tents that are right to 3e-6 a level.
+                EXPECT_NEAR(static_cast<double>(chain.level(k)[i].x), expected, 2e-5 * expected)
+                    << n << " level " << k << " texel " << i;
+            }
+        }
+    }
+}
+
+/// A level is made for the lobe for which it is read. Up to 16 texels the level is that of round
+/// ones, log2(w sqrt 3) - log2(s + 1) / 2 - 1.15, which is 0 at s + 1 = 3 w^2 2^-2.3 (MIP-5).
+TEST(Mips, ALevelsExponentIsTheOneThatReadsIt) {
+    for (const double width : {1.0, 1.5, 2.0, 3.0, 4.25, 8.0, 12.5, 16.0, 16.5, 16.9}) {
+        const double s = exponentOfTentLevel(width);
+        if (width <= 16.5) { // beyond it the transition from tents begins
+            const double exact = std::max(3.0 * width * width * std::exp2(-2.3) - 1.0, 0.0);
+            // A level near 12 in float, 1e-6 a rounding, is 1.4e-6 of s + 1.
+            EXPECT_NEAR(s, exact, 1e-5 * (exact + 1.0)) << width;
+        }
+        if (s > 1e-6) { // below, the level read lies before the lobe's widest
+            // Where texels have the mean size, in the middle of a long chain.
+            const float y = std::sqrt(std::exp2(0.467f / 0.75f) - 1.0f);
+            EXPECT_NEAR(shader::lodestar_tentLevel({1.0f, y, 0.0f}, static_cast<float>(s),
+                                                   static_cast<float>(std::ldexp(width, 4)), 8.0f),
+                        4.0f, 1e-5f)
+                << width;
         }
     }
 }
