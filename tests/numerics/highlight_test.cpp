@@ -75,26 +75,35 @@ Highlight measure(const lighting::PreparedEnvironment& environment, const glm::d
     return result;
 }
 
-/// Means over exponents 2 to 128, whose highlights tents alone got wrong.
-Highlight measure(const glm::dvec3& axis) {
+/// Means over exponents 2 to 128, whose highlights tents alone got wrong, and the worst difference
+/// at 256 and at 512, where the last tents pass into round levels.
+struct Highlights {
+    Highlight mean;
+    double wrongAt256 = 0.0;
+    double wrongAt512 = 0.0;
+};
+
+Highlights measure(const glm::dvec3& axis) {
     const auto environment =
         lighting::prepare(lampCube(axis, 5.0, kWidth), {false, true, false, false});
     const std::vector<double> exponents{2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0, 512.0};
-    Highlight mean;
+    Highlights all;
     double count = 0.0;
     for (const double exponent : exponents) {
         const Highlight h = measure(environment, axis, exponent);
         std::printf("axis %.2f s %3.0f: rms %.3f, spread around a ring %.3f, worst %.3f\n", axis.x,
                     exponent, h.rms, h.unround, h.wrong);
         if (exponent <= 128.0) {
-            mean.rms += h.rms;
-            mean.unround += h.unround;
+            all.mean.rms += h.rms;
+            all.mean.unround += h.unround;
             count += 1.0;
+        } else {
+            (exponent == 256.0 ? all.wrongAt256 : all.wrongAt512) = h.wrong;
         }
     }
-    mean.rms /= count;
-    mean.unround /= count;
-    return mean;
+    all.mean.rms /= count;
+    all.mean.unround /= count;
+    return all;
 }
 
 } // namespace
@@ -103,13 +112,18 @@ Highlight measure(const glm::dvec3& axis) {
 /// rhombi of 120 degrees, sqrt 3 times as long as wide: the spread around a ring may be so much
 /// larger. The texels are smaller there than at a centre, so that the difference from the truth
 /// must not be larger. Tents alone: spread 0.44 and 0.10 rms near a corner, 0.10 and 0.08 at a
-/// centre.
+/// centre, where round levels must not do worse. At 256 and 512 a corner's highlight is too dim by
+/// 0.33 and 0.41 of its peak, as docs/estimators.md says to two digits.
 TEST(Highlight, IsAsRoundAtACornerAsTexelsAllow) {
-    const Highlight centre = measure(kCentreAxis);
+    const Highlight centre = measure(kCentreAxis).mean;
+    EXPECT_LE(centre.unround, 0.10);
+    EXPECT_LE(centre.rms, 0.08);
     for (const glm::dvec3& axis : {kCornerAxis, glm::normalize(glm::dvec3(1.0, 1.0, 1.0))}) {
-        const Highlight corner = measure(axis);
-        EXPECT_LE(corner.unround, std::sqrt(3.0) * centre.unround) << axis.x;
-        EXPECT_LE(corner.rms, centre.rms) << axis.x;
+        const Highlights corner = measure(axis);
+        EXPECT_LE(corner.mean.unround, std::sqrt(3.0) * centre.unround) << axis.x;
+        EXPECT_LE(corner.mean.rms, centre.rms) << axis.x;
+        EXPECT_LE(corner.wrongAt256, 0.335) << axis.x;
+        EXPECT_LE(corner.wrongAt512, 0.415) << axis.x;
     }
 }
 

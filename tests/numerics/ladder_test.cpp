@@ -118,7 +118,9 @@ TEST(Ladder, FirstSet) {
     for (std::size_t e = 0; e < published.size(); ++e) {
         EXPECT_NEAR(byExponent[e], published[e], 0.1 * published[e]) << ladderExponents()[e];
     }
+    // .123 is the best known for tents alone and must be met within 10 %; .109 is our own figure.
     EXPECT_LE(tent, 1.1 * 0.123);
+    EXPECT_LE(tent, 1.1 * 0.109);
     EXPECT_LE(tent, 0.5 * mip);
 }
 
@@ -136,7 +138,8 @@ TEST(Ladder, SecondSet) {
     const double mip = ladder.report(EstimatorKind::Mip);
     const double tent = ladder.report(EstimatorKind::Tent);
     EXPECT_NEAR(mip, 0.466, 0.1 * 0.466);
-    EXPECT_LE(tent, 1.1 * 0.20);
+    EXPECT_LE(tent, 1.1 * 0.20); // the best known for tents alone, and our own figure
+    EXPECT_LE(tent, 1.1 * 0.179);
     EXPECT_LE(tent, 0.5 * mip);
 }
 
