@@ -39,18 +39,14 @@ void convert(GltfContext& context, const SideFiles& files, bool decodeImages, bo
     convertLights(context);
     for (const auto step : {convertMaterials, convertCameras, convertNodes, convertScenes,
                             convertEnvironments, convertMeshes, convertSkins, convertAnimations}) {
-        core::Result<void> done = step(context);
-        if (!done) {
-            context.problems.refuse(done.error());
-            return;
-        }
+        step(context);
         if (!goOn(context.problems, all)) {
             return;
         }
     }
-    core::Result<void> images = loadImages(context, files, decodeImages);
-    if (!images) {
-        context.problems.refuse(images.error());
+    loadImages(context, files, decodeImages);
+    if (decodeImages) {
+        checkEnvironmentFaces(context);
     }
 }
 

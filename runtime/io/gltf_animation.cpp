@@ -181,17 +181,16 @@ private:
 
 } // namespace
 
-core::Result<void> convertAnimations(GltfContext& context) {
+void convertAnimations(GltfContext& context) {
     for (std::size_t i = 0; i < memberSize(context.document, "animations"); ++i) {
         core::Result<GltfAnimation> animation =
             AnimationReader(context, context.document["animations"][i], pointer("/animations", i))
                 .read();
         if (!animation) {
-            return animation.error();
+            context.problems.refuse(animation.error());
         }
-        context.file.animations.push_back(std::move(*animation));
+        context.file.animations.push_back(animation ? std::move(*animation) : GltfAnimation());
     }
-    return {};
 }
 
 } // namespace lodestar::io::detail

@@ -117,7 +117,7 @@ GltfLight readLight(const Json& json, core::Tally& warnings) {
 
 } // namespace
 
-core::Result<void> convertCameras(GltfContext& context) {
+void convertCameras(GltfContext& context) {
     for (std::size_t i = 0; i < context.model.cameras.size(); ++i) {
         const tinygltf::Camera& source = context.model.cameras[i];
         const Json& json = context.document["cameras"][i];
@@ -133,7 +133,6 @@ core::Result<void> convertCameras(GltfContext& context) {
         }
         context.file.cameras.push_back(camera);
     }
-    return {};
 }
 
 void convertLights(GltfContext& context) {

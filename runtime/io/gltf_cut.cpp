@@ -73,6 +73,9 @@ Json standIn(std::string_view array) {
     if (array == "cameras") {
         return {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 1.0}}}};
     }
+    if (array == "animations") {
+        return {{"channels", Json::array()}, {"samplers", Json::array()}};
+    }
     if (array == "meshes") {
         return {{"primitives", {{{"attributes", Json::object()}}}}};
     }
@@ -82,15 +85,39 @@ Json standIn(std::string_view array) {
 /// Nodes without the meshes and skins that fell.
 void mendNodes(Json& nodes, const GltfProblems& problems) {
     for (Json& node : nodes) {
-        for (const auto& [key, array] :
-             {std::pair{"mesh", "/meshes"}, std::pair{"skin", "/skins"}}) {
+        const auto fell = [&](const char* key, const char* array) {
             const Json* index = member(node, key);
-            if (index != nullptr && !problems.clean(pointer(array, index->get<std::size_t>()))) {
-                node.erase("mesh");
-                node.erase("skin");
-                node.erase("weights");
+            return index != nullptr && !problems.clean(pointer(array, index->get<std::size_t>()));
+        };
+        if (fell("skin", "/skins")) {
+            node.erase("skin");
+        }
+        if (fell("mesh", "/meshes")) {
+            node.erase("mesh");
+            node.erase("skin");
+            node.erase("weights");
+        }
+    }
+}
+
+/// Lists of names without what is none, and extensions without the lights that fell.
+void mendExtensions(Json& document, const GltfProblems& problems) {
+    for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
+        if (!document.contains(key)) {
+            continue;
+        }
+        Json texts = Json::array();
+        for (std::size_t i = 0; i < memberSize(document, key); ++i) {
+            if (document[key][i].is_string()) {
+                texts.push_back(document[key][i]);
             }
         }
+        document[key] = std::move(texts);
+    }
+    if (!problems.clean("/extensions")) {
+        document.erase("extensions");
+    } else if (!problems.clean("/extensions/KHR_lights_punctual")) {
+        document["extensions"].erase("KHR_lights_punctual");
     }
 }
 
@@ -98,8 +125,9 @@ void mendNodes(Json& nodes, const GltfProblems& problems) {
 
 void cutOutRefused(Json& document, std::vector<Bytes>& buffers, GltfProblems& problems) {
     spread(document, problems);
-    for (const char* array : {"accessors", "buffers", "bufferViews", "cameras", "images",
-                              "materials", "meshes", "nodes", "samplers", "scenes", "textures"}) {
+    for (const char* array : {"accessors", "animations", "buffers", "bufferViews", "cameras",
+                              "images", "materials", "meshes", "nodes", "samplers", "scenes",
+                              "skins", "textures"}) {
         for (std::size_t i = 0; i < memberSize(document, array); ++i) {
             if (!problems.clean(pointer(std::string("/") + array, i))) {
                 document[array][i] = standIn(array);
@@ -112,31 +140,10 @@ void cutOutRefused(Json& document, std::vector<Bytes>& buffers, GltfProblems& pr
     if (memberSize(document, "nodes") > 0) {
         mendNodes(document["nodes"], problems);
     }
-    // Nothing but nodes names a skin, and nothing an animation.
-    for (const char* array : {"skins", "animations"}) {
-        bool all = true;
-        for (std::size_t i = 0; i < memberSize(document, array); ++i) {
-            all = all && problems.clean(pointer(std::string("/") + array, i));
-        }
-        if (!all) {
-            document.erase(array);
-        }
+    if (!problems.clean("/scene")) {
+        document.erase("scene");
     }
-    if (document.contains("nodes") && !document.contains("skins")) {
-        for (Json& node : document["nodes"]) {
-            node.erase("skin");
-        }
-    }
-    for (const char* key : {"scene", "extensionsUsed", "extensionsRequired", "extensions"}) {
-        const std::string at = std::string("/") + key;
-        bool good = problems.clean(at) && problems.clean(at + "/KHR_lights_punctual");
-        for (std::size_t i = 0; i < memberSize(document, key); ++i) {
-            good = good && document[key][i].is_string();
-        }
-        if (!good) {
-            document.erase(key);
-        }
-    }
+    mendExtensions(document, problems);
 }
 
 } // namespace lodestar::io::detail

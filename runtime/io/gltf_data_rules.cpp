@@ -100,10 +100,11 @@ private:
             increasing = increasing && element > before;
             before = element;
             if (element >= static_cast<double>(count)) {
-                problems.refuse("sparse index " +
-                                    std::to_string(static_cast<std::uint32_t>(element)) +
-                                    " is not below the " + std::to_string(count) + " elements",
-                                at + "/sparse/indices");
+                // Loading refuses it where it is used.
+                problems.repaired("sparse index " +
+                                      std::to_string(static_cast<std::uint32_t>(element)) +
+                                      " is not below the " + std::to_string(count) + " elements",
+                                  at + "/sparse/indices");
                 return;
             }
             take(static_cast<std::size_t>(element), values + i * layout_.bytes);
@@ -230,7 +231,10 @@ void checkDataRules(const Json& document, const std::vector<Bytes>& buffers,
         }
         const Json& accessor = document["accessors"][i];
         if (!data.read(accessor, at, problems)) {
-            return; // loading refuses as much geometry
+            problems.repaired("the data of this accessor and of those behind it are not looked "
+                              "at: there are too many",
+                              at);
+            return;
         }
         checkFinite(data, at, problems);
         // Without data, an extension's stand here, which are not zeros.

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "io/environment_file.h"
-#include "io/gltf.h"
+#include "io/gltf_internal.h"
 #include "lighting/environment.h"
 #include "lodestar/cube.glsl"
 #include "lodestar/display.glsl"
@@ -58,21 +58,59 @@ lighting::Cubemap turned(const lighting::Cubemap& cube, const glm::quat& worldFr
     return result;
 }
 
+const char* const kLights = "/extensions/EXT_lights_image_based/lights";
+
+/// @pre the file has the faces' images
+core::Result<void> checkFaces(const GltfFile& file, std::size_t environment) {
+    const std::array<int, 6>& faces = file.environments[environment].faces;
+    const int side = file.images[static_cast<std::size_t>(faces[0])].width();
+    for (const int face : faces) {
+        const core::Image& stored = file.images[static_cast<std::size_t>(face)];
+        if (stored.width() != side || stored.height() != side || side < 1) {
+            return core::refused("the six faces must be square and of one size",
+                                 detail::pointer(kLights, environment) + "/specularImages/0");
+        }
+    }
+    return {};
+}
+
 } // namespace
+
+void detail::checkEnvironmentFaces(GltfContext& context) {
+    if (!context.problems.clean("/extensions/EXT_lights_image_based")) {
+        return;
+    }
+    std::vector<bool> named(context.file.environments.size());
+    for (const GltfScene& scene : context.file.scenes) {
+        if (scene.environment != kNone) {
+            named[static_cast<std::size_t>(scene.environment)] = true;
+        }
+    }
+    for (std::size_t i = 0; i < named.size(); ++i) {
+        const std::array<int, 6>& faces = context.file.environments[i].faces;
+        const bool known = std::all_of(faces.begin(), faces.end(), [&](int face) {
+            return static_cast<std::size_t>(face) < context.file.images.size() &&
+                   context.problems.clean(pointer("/images", static_cast<std::size_t>(face)));
+        });
+        core::Result<void> good = named[i] && known ? checkFaces(context.file, i)
+                                                    : core::Result<void>();
+        if (!good) {
+            context.problems.refuse(good.error());
+        }
+    }
+}
 
 core::Result<LoadedEnvironment> environmentOf(const GltfFile& file, int environment, int width) {
     const GltfEnvironment& light = file.environments[static_cast<std::size_t>(environment)];
+    core::Result<void> good = checkFaces(file, static_cast<std::size_t>(environment));
+    if (!good) {
+        return good.error();
+    }
     LoadedEnvironment loaded;
     loaded.layout = EnvironmentLayout::SixFiles;
-    const int side = file.images[static_cast<std::size_t>(light.faces[0])].width();
     std::array<core::Image, 6> faces;
     for (std::size_t face = 0; face < 6; ++face) {
         const core::Image& stored = file.images[static_cast<std::size_t>(light.faces[face])];
-        if (stored.width() != side || stored.height() != side || side < 1) {
-            return core::refused("the six faces must be square and of one size",
-                                 "/extensions/EXT_lights_image_based/lights/" +
-                                     std::to_string(environment) + "/specularImages/0");
-        }
         faces[face] = radianceOf(stored, light.intensity);
         lighting::repairRadiance(faces[face], loaded.warnings);
     }

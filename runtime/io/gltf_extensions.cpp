@@ -201,20 +201,25 @@ core::Result<void> readMaterialExtensions(const Json& json, const std::string& a
     return {};
 }
 
-core::Result<void> convertEnvironments(GltfContext& context) {
+void convertEnvironments(GltfContext& context) {
     const Json* own = extensionOf(context.document, "EXT_lights_image_based");
     const std::string at = "/extensions/EXT_lights_image_based";
     const std::size_t images = memberSize(context.document, "images");
+    if (!context.problems.clean("/extensions")) {
+        return; // nobody knows what the scenes' indices point at
+    }
     if (own != nullptr && (!own->is_object() || memberSize(*own, "lights") == 0)) {
-        return core::refused("must be an object with an array of lights", at);
+        context.problems.refuse("must be an object with an array of lights", at);
+        return;
     }
     for (std::size_t i = 0; own != nullptr && i < memberSize(*own, "lights"); ++i) {
         core::Result<GltfEnvironment> environment = readEnvironment(
             (*own)["lights"][i], images, pointer(at + "/lights", i), context.file.warnings);
         if (!environment) {
-            return environment.error();
+            context.problems.refuse(environment.error());
         }
-        context.file.environments.push_back(std::move(*environment));
+        context.file.environments.push_back(environment ? std::move(*environment)
+                                                        : GltfEnvironment());
     }
     for (std::size_t i = 0; i < memberSize(context.document, "scenes"); ++i) {
         ExtensionReader reader(extensionOf(context.document["scenes"][i], "EXT_lights_image_based"),
@@ -223,10 +228,9 @@ core::Result<void> convertEnvironments(GltfContext& context) {
             reader.index("light", context.file.environments.size(), "image-based lights")
                 .value_or(kNone);
         if (!reader.status()) {
-            return reader.status();
+            context.problems.refuse(reader.status().error());
         }
     }
-    return {};
 }
 
 } // namespace lodestar::io::detail

@@ -39,7 +39,7 @@ core::Result<Bytes> encodedImage(const GltfContext& context, const Json& json,
 
 } // namespace
 
-core::Result<void> loadImages(GltfContext& context, const SideFiles& files, bool decode) {
+void loadImages(GltfContext& context, const SideFiles& files, bool decode) {
     Budget encodedLeft(kMaxImageBytes);
     Budget decodedLeft(kMaxImageBytes);
     for (std::size_t i = 0; i < memberSize(context.document, "images"); ++i) {
@@ -68,7 +68,8 @@ core::Result<void> loadImages(GltfContext& context, const SideFiles& files, bool
             continue;
         }
         if (!encodedLeft.spend(bytes->size())) {
-            return tooMuch(at);
+            context.problems.refuse(tooMuch(at));
+            return;
         }
         core::Result<ImageInfo> info = imageInfo(*bytes);
         if (!info) {
@@ -81,7 +82,8 @@ core::Result<void> loadImages(GltfContext& context, const SideFiles& files, bool
         described.channels = info->channels;
         if (!decodedLeft.spend(static_cast<std::size_t>(info->width) *
                                static_cast<std::size_t>(info->height) * 4 * sizeof(float))) {
-            return tooMuch(at);
+            context.problems.refuse(tooMuch(at));
+            return;
         }
         core::Result<DecodedImage> image = decodeImage(*bytes, 4);
         if (!image) {
@@ -90,7 +92,6 @@ core::Result<void> loadImages(GltfContext& context, const SideFiles& files, bool
         }
         context.file.images.push_back(std::move(image->image));
     }
-    return {};
 }
 
 } // namespace lodestar::io::detail

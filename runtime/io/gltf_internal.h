@@ -139,7 +139,9 @@ struct GltfContext {
 [[nodiscard]] core::Result<std::vector<std::uint32_t>> readIndices(GltfContext& context,
                                                                    int accessor);
 
-[[nodiscard]] core::Result<void> convertMeshes(GltfContext& context);
+/// The converting steps: what is wrong is refused in the context's problems, a placeholder stands in
+/// its place, and the rest is gone through.
+void convertMeshes(GltfContext& context);
 /// Turns strips, loops and fans into lists, by glTF's mode 0 to 6.
 [[nodiscard]] std::vector<std::uint32_t> unrolled(const std::vector<std::uint32_t>& indices,
                                                   int mode);
@@ -158,19 +160,26 @@ void repairTangents(GltfPrimitive& primitive, core::Tally& warnings);
 [[nodiscard]] core::Result<void> readTargets(GltfContext& context, const Json& json,
                                              const std::string& at, GltfPrimitive& primitive);
 /// The weights of a mesh's targets, 0 where the file says nothing; as many in every primitive.
-[[nodiscard]] core::Result<void> readTargetWeights(GltfContext& context, std::size_t mesh,
-                                                   GltfMesh& converted);
+void readTargetWeights(GltfContext& context, std::size_t mesh, GltfMesh& converted);
+/// Refuses nodes whose own weights are not as many as their mesh's. @pre meshes are converted
+void checkNodeWeights(GltfContext& context);
+/// What the core specification and KHR_mesh_quantization let the components of an attribute be.
+/// @param delta the attribute is a morph target's
+[[nodiscard]] core::Result<void> checkComponents(const GltfContext& context,
+                                                 const std::string& name,
+                                                 const tinygltf::Accessor& accessor,
+                                                 const std::string& at, bool delta);
 /// The numbers of an accessor of the type, or an error at `at`.
 /// @param types componentTypes allowed, for the message too
 [[nodiscard]] core::Result<std::vector<float>>
 readTyped(GltfContext& context, int accessor, const char* type, std::initializer_list<int> types,
           bool forceNormalized, const std::string& at);
 /// Skins, and what the nodes with a skin say of it. @pre nodes and meshes are converted
-[[nodiscard]] core::Result<void> convertSkins(GltfContext& context);
+void convertSkins(GltfContext& context);
 /// @pre nodes and meshes are converted
-[[nodiscard]] core::Result<void> convertAnimations(GltfContext& context);
+void convertAnimations(GltfContext& context);
 
-[[nodiscard]] core::Result<void> convertMaterials(GltfContext& context);
+void convertMaterials(GltfContext& context);
 /// Reads members that the schema's tables leave out, of an extension's object. The first fault is
 /// kept and ends up in status(); what follows it reads as absent.
 class ExtensionReader {
@@ -206,15 +215,17 @@ readTextureTransform(const Json& info, const std::string& at, int& set);
                                                         GltfMaterial& material,
                                                         core::Tally& warnings);
 /// EXT_lights_image_based: the document's environments, and which one each scene has.
-[[nodiscard]] core::Result<void> convertEnvironments(GltfContext& context);
+void convertEnvironments(GltfContext& context);
 
 void convertTextures(GltfContext& context);
-[[nodiscard]] core::Result<void> convertCameras(GltfContext& context);
+void convertCameras(GltfContext& context);
 void convertLights(GltfContext& context);
-[[nodiscard]] core::Result<void> convertNodes(GltfContext& context);
-[[nodiscard]] core::Result<void> convertScenes(GltfContext& context);
-[[nodiscard]] core::Result<void> loadImages(GltfContext& context, const SideFiles& files,
-                                            bool decode);
+void convertNodes(GltfContext& context);
+void convertScenes(GltfContext& context);
+void loadImages(GltfContext& context, const SideFiles& files, bool decode);
+/// Refuses image-based lights that a scene names and whose faces make no cube. @pre images are
+/// decoded
+void checkEnvironmentFaces(GltfContext& context);
 
 [[nodiscard]] inline std::string pointer(const std::string& parent, std::size_t index) {
     return parent + "/" + std::to_string(index);

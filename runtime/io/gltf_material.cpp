@@ -353,7 +353,7 @@ void applyFilters(const tinygltf::Sampler& sampler, GltfTexture& texture, core::
 
 } // namespace
 
-core::Result<void> convertMaterials(GltfContext& context) {
+void convertMaterials(GltfContext& context) {
     for (std::size_t i = 0; i < context.model.materials.size(); ++i) {
         MaterialReader reader(context, pointer("/materials", i));
         core::Result<GltfMaterial> material =
@@ -363,7 +363,6 @@ core::Result<void> convertMaterials(GltfContext& context) {
         }
         context.file.materials.push_back(material ? std::move(*material) : GltfMaterial());
     }
-    return {};
 }
 
 void convertTextures(GltfContext& context) {

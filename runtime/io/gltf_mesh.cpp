@@ -87,37 +87,11 @@ private:
                                      " elements, POSITION has " + std::to_string(vertexCount_),
                                  at);
         }
-        if (core::Result<void> allowed = checkComponents(name, accessor, at); !allowed) {
+        if (core::Result<void> allowed = checkComponents(context_, name, accessor, at, false); !allowed) {
             return allowed.error();
         }
         vertexCount_ = accessor.count;
         return readFloats(context_, found->second, forceNormalized);
-    }
-
-    /// What the core specification lets an attribute's components be, and KHR_mesh_quantization.
-    core::Result<void> checkComponents(const std::string& name, const tinygltf::Accessor& accessor,
-                                       const std::string& at) const {
-        const int type = accessor.componentType;
-        const bool isFloat = type == TINYGLTF_COMPONENT_TYPE_FLOAT;
-        const bool isUnsigned = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-                                type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
-        const bool isSigned =
-            type == TINYGLTF_COMPONENT_TYPE_BYTE || type == TINYGLTF_COMPONENT_TYPE_SHORT;
-        const bool direction = name == "NORMAL" || name == "TANGENT";
-        const bool plain =
-            isFloat || (isUnsigned && (name == "COLOR_0" ||
-                                       (name.starts_with("TEXCOORD_") && accessor.normalized)));
-        const bool quantized = direction ? isSigned && accessor.normalized
-                                         : (isSigned || isUnsigned) && name != "COLOR_0";
-        if (plain || (quantized && context_.file.extensionListed("KHR_mesh_quantization"))) {
-            return {};
-        }
-        const std::string form = std::string(accessor.normalized ? "normalised " : "") +
-                                 "components of type " + std::to_string(type);
-        return core::refused(quantized ? name + " in " + form +
-                                             " needs the extension KHR_mesh_quantization"
-                                       : name + " cannot have " + form,
-                             at);
     }
 
     core::Result<void> readPositions(GltfPrimitive& primitive) {
@@ -310,7 +284,34 @@ static_assert(static_cast<int>(Topology::Points) == 0 && static_cast<int>(Topolo
 
 } // namespace
 
-core::Result<void> convertMeshes(GltfContext& context) {
+core::Result<void> checkComponents(const GltfContext& context, const std::string& name,
+                                   const tinygltf::Accessor& accessor, const std::string& at,
+                                   bool delta) {
+    const int type = accessor.componentType;
+    const bool isFloat = type == TINYGLTF_COMPONENT_TYPE_FLOAT;
+    const bool isUnsigned = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                            type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+    const bool isSigned =
+        type == TINYGLTF_COMPONENT_TYPE_BYTE || type == TINYGLTF_COMPONENT_TYPE_SHORT;
+    const bool direction = name == "NORMAL" || name == "TANGENT";
+    const bool plain =
+        isFloat || (isUnsigned && (name == "COLOR_0" ||
+                                   (name.starts_with("TEXCOORD_") && accessor.normalized)));
+    const bool quantized = direction ? isSigned && accessor.normalized
+                                     : (isSigned || (isUnsigned && !delta)) && name != "COLOR_0";
+    if (plain || (quantized && context.file.extensionListed("KHR_mesh_quantization"))) {
+        return {};
+    }
+    const std::string form = std::string(accessor.normalized ? "normalised " : "") +
+                             "components of type " + std::to_string(type);
+    const std::string thing = name + (delta ? " of a morph target" : "");
+    return core::refused(quantized
+                             ? thing + " in " + form + " needs the extension KHR_mesh_quantization"
+                             : thing + " cannot have " + form,
+                         at);
+}
+
+void convertMeshes(GltfContext& context) {
     for (std::size_t m = 0; m < context.model.meshes.size(); ++m) {
         const tinygltf::Mesh& source = context.model.meshes[m];
         const Json& primitives = context.document["meshes"][m]["primitives"];
@@ -329,13 +330,10 @@ core::Result<void> convertMeshes(GltfContext& context) {
                 mesh.primitives.push_back(std::move(primitive));
             }
         }
-        core::Result<void> weights = readTargetWeights(context, m, mesh);
-        if (!weights) {
-            return weights;
-        }
+        readTargetWeights(context, m, mesh);
         context.file.meshes.push_back(std::move(mesh));
     }
-    return {};
+    checkNodeWeights(context);
 }
 
 } // namespace lodestar::io::detail

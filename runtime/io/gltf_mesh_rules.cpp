@@ -33,8 +33,10 @@ class MeshRules {
 public:
     MeshRules(const Json& document, GltfProblems& problems)
         : document_(document), problems_(problems) {
-        for (std::size_t i = 0; i < memberSize(document, "extensionsUsed"); ++i) {
-            quantized_ = quantized_ || document["extensionsUsed"][i] == "KHR_mesh_quantization";
+        for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+            for (std::size_t i = 0; i < memberSize(document, list); ++i) {
+                quantized_ = quantized_ || document[list][i] == "KHR_mesh_quantization";
+            }
         }
     }
 
@@ -43,14 +45,6 @@ public:
             const Json& primitives = mesh["primitives"];
             for (std::size_t p = 0; p < primitives.size(); ++p) {
                 checkPrimitive(primitives[p], pointer(at + "/primitives", p));
-                if (memberSize(primitives[p], "targets") != memberSize(primitives[0], "targets")) {
-                    problems_.repaired("primitives of one mesh must have as many morph targets",
-                                       pointer(at + "/primitives", p) + "/targets");
-                }
-            }
-            if (mesh.contains("weights") && !primitives.empty() &&
-                mesh["weights"].size() != memberSize(primitives[0], "targets")) {
-                problems_.repaired("must hold a weight for each morph target", at + "/weights");
             }
         });
         eachClean(
@@ -92,10 +86,7 @@ private:
                 }
             }
         }
-        if (sets["JOINTS"] != sets["WEIGHTS"]) {
-            problems_.repaired("must have as many sets of JOINTS as of WEIGHTS",
-                               at + "/attributes");
-        }
+        checkInfluenceSets(primitive["attributes"], sets, at);
         checkTexCoords(primitive, sets["TEXCOORD"], at);
         if (const Json* index = member(primitive, "indices")) {
             if (const Json* accessor = accessorOf(*index)) {
@@ -103,6 +94,26 @@ private:
             }
         }
         checkTargets(primitive, at);
+    }
+
+    /// JOINTS without WEIGHTS among the first sets are refused in loading.
+    void checkInfluenceSets(const Json& attributes, std::map<std::string, std::size_t>& sets,
+                            const std::string& at) {
+        for (std::size_t set = 0; set < kInfluenceSets; ++set) {
+            std::size_t found = 0;
+            for (const char* name : {"JOINTS", "WEIGHTS"}) {
+                const bool has = attributes.contains(name + ("_" + std::to_string(set)));
+                sets[name] -= has ? 1U : 0U;
+                found += has ? 1U : 0U;
+            }
+            if (found == 0) {
+                break; // nor are later ones looked at
+            }
+        }
+        if (sets["JOINTS"] != sets["WEIGHTS"]) {
+            problems_.repaired("must have as many sets of JOINTS as of WEIGHTS",
+                               at + "/attributes");
+        }
     }
 
     void checkAttribute(const std::string& name, const Json& index, const std::string& here) {
@@ -190,6 +201,11 @@ private:
         }
     }
 
+    /// Whether loading reads an attribute of a target, and refuses another count.
+    static bool isDelta(const std::string& name) {
+        return name == "POSITION" || name == "NORMAL" || name == "TANGENT";
+    }
+
     void checkTargets(const Json& primitive, const std::string& at) {
         for (std::size_t t = 0; t < memberSize(primitive, "targets"); ++t) {
             for (const auto& [name, index] : primitive["targets"][t].items()) {
@@ -199,7 +215,7 @@ private:
                 const Json* baseAccessor = base == nullptr ? nullptr : accessorOf(*base);
                 if (base == nullptr) {
                     problems_.repaired("the primitive itself has no " + name, here);
-                } else if (accessor != nullptr && baseAccessor != nullptr &&
+                } else if (accessor != nullptr && baseAccessor != nullptr && !isDelta(name) &&
                            (*accessor)["count"] != (*baseAccessor)["count"]) {
                     problems_.repaired("has another count than the primitive's " + name, here);
                 }

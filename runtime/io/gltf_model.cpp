@@ -3,14 +3,16 @@
 // tinygltf 2.7, kept from everything it does unsafely: it is given a document of known, checked
 // keys without images, skins, animations and extensions, and its buffers by name from memory.
 #include <algorithm>
+#include <charconv>
 #include <exception>
+#include <string_view>
 
 #include "io/gltf_internal.h"
 
 namespace lodestar::io::detail {
 namespace {
 
-constexpr const char* kBufferName = "buffer-";
+constexpr std::string_view kBufferName = "buffer-";
 
 /// The "files" that tinygltf may see.
 struct MemoryFiles {
@@ -18,16 +20,14 @@ struct MemoryFiles {
 
     /// The buffer of a name, or null.
     Bytes* find(const std::string& name) {
-        const std::string prefix = kBufferName;
-        if (!name.starts_with(prefix)) {
+        if (!name.starts_with(kBufferName)) {
             return nullptr;
         }
-        for (std::size_t i = 0; i < buffers.size(); ++i) {
-            if (name == prefix + std::to_string(i)) {
-                return &buffers[i];
-            }
-        }
-        return nullptr;
+        std::size_t index = 0;
+        const char* end = name.data() + name.size();
+        const auto read = std::from_chars(name.data() + kBufferName.size(), end, index);
+        return read.ec == std::errc() && read.ptr == end && index < buffers.size() ? &buffers[index]
+                                                                                   : nullptr;
     }
 };
 
@@ -71,7 +71,7 @@ Json prepared(const Json& document, std::size_t bufferCount) {
         copy.erase(key);
     }
     for (std::size_t i = 0; i < bufferCount; ++i) {
-        copy["buffers"][i]["uri"] = kBufferName + std::to_string(i);
+        copy["buffers"][i]["uri"] = std::string(kBufferName) + std::to_string(i);
     }
     for (std::size_t m = 0; m < memberSize(copy, "meshes"); ++m) {
         for (Json& primitive : copy["meshes"][m]["primitives"]) {

@@ -18,9 +18,14 @@ core::Result<std::vector<glm::vec3>> readDeltas(GltfContext& context, const Json
     if (accessor == nullptr) {
         return deltas;
     }
-    // KHR_mesh_quantization adds the integers.
+    const auto index = accessor->get<std::size_t>();
+    core::Result<void> allowed =
+        checkComponents(context, name, context.model.accessors[index], at + "/" + name, true);
+    if (!allowed) {
+        return allowed.error();
+    }
     core::Result<std::vector<float>> values =
-        readTyped(context, accessor->get<int>(), "VEC3", {5120, 5121, 5122, 5123, 5126}, false,
+        readTyped(context, static_cast<int>(index), "VEC3", {5120, 5122, 5126}, false,
                   at + "/" + name);
     if (!values) {
         return values.error();
@@ -44,6 +49,11 @@ core::Result<std::vector<glm::vec3>> readDeltas(GltfContext& context, const Json
     return deltas;
 }
 
+std::string weightsFor(std::size_t given, std::size_t targets) {
+    return "there are " + std::to_string(given) + " weights for " + std::to_string(targets) +
+           " morph targets";
+}
+
 } // namespace
 
 core::Result<void> readTargets(GltfContext& context, const Json& json, const std::string& at,
@@ -63,11 +73,16 @@ core::Result<void> readTargets(GltfContext& context, const Json& json, const std
             }
             *list = std::move(*deltas);
         }
-        if ((primitive.normals.empty() && !target.normals.empty()) ||
-            (primitive.tangents.empty() && !target.tangents.empty())) {
-            context.file.warnings.add(
-                "morph target moves normals or tangents that its primitive lacks, not moved");
-            primitive.normals.empty() ? target.normals.clear() : target.tangents.clear();
+        const bool normals = primitive.normals.empty() && !target.normals.empty();
+        const bool tangents = primitive.tangents.empty() && !target.tangents.empty();
+        context.file.warnings.add(
+            "morph target moves normals or tangents that its primitive lacks, not moved",
+            normals || tangents ? 1 : 0);
+        if (normals) {
+            target.normals.clear();
+        }
+        if (tangents) {
+            target.tangents.clear();
         }
         const auto others =
             std::count_if(source.items().begin(), source.items().end(), [](const auto& entry) {
@@ -80,40 +95,44 @@ core::Result<void> readTargets(GltfContext& context, const Json& json, const std
     return {};
 }
 
-core::Result<void> readTargetWeights(GltfContext& context, std::size_t mesh, GltfMesh& converted) {
+void readTargetWeights(GltfContext& context, std::size_t mesh, GltfMesh& converted) {
     const Json& json = context.document["meshes"][mesh];
     const std::string at = pointer("/meshes", mesh);
     const Json& primitives = json["primitives"];
     const std::size_t count = primitives.empty() ? 0 : memberSize(primitives[0], "targets");
     for (std::size_t p = 1; p < primitives.size(); ++p) {
         if (memberSize(primitives[p], "targets") != count) {
-            return core::refused(
+            context.problems.refuse(
                 "primitive has " + std::to_string(memberSize(primitives[p], "targets")) +
                     " morph targets, the mesh's first has " + std::to_string(count),
                 pointer(at + "/primitives", p));
+            return;
         }
     }
+    converted.weights.assign(count, 0.0f);
     const std::size_t given = memberSize(json, "weights");
     if (given != 0 && given != count) {
-        return core::refused("there are " + std::to_string(given) + " weights for " +
-                                 std::to_string(count) + " morph targets",
-                             at + "/weights");
+        context.problems.refuse(weightsFor(given, count), at + "/weights");
+        return;
     }
-    converted.weights.assign(count, 0.0f);
     for (std::size_t i = 0; i < given; ++i) {
         converted.weights[i] = json["weights"][i].get<float>();
     }
-    // Whose mesh this is: their weights replace the mesh's.
+}
+
+void checkNodeWeights(GltfContext& context) {
     for (std::size_t n = 0; n < context.file.nodes.size(); ++n) {
         const GltfNode& node = context.file.nodes[n];
-        if (node.mesh == static_cast<int>(mesh) && !node.weights.empty() &&
-            node.weights.size() != count) {
-            return core::refused("there are " + std::to_string(node.weights.size()) +
-                                     " weights for " + std::to_string(count) + " morph targets",
-                                 pointer("/nodes", n) + "/weights");
+        if (node.mesh == kNone || node.weights.empty()) {
+            continue;
+        }
+        const auto mesh = static_cast<std::size_t>(node.mesh);
+        const std::size_t count = context.file.meshes[mesh].weights.size();
+        if (node.weights.size() != count && context.problems.clean(pointer("/meshes", mesh))) {
+            context.problems.refuse(weightsFor(node.weights.size(), count),
+                                    pointer("/nodes", n) + "/weights");
         }
     }
-    return {};
 }
 
 } // namespace lodestar::io::detail

@@ -132,7 +132,7 @@ void linkParents(std::vector<GltfNode>& nodes, GltfProblems& problems) {
 
 /// Walks down from every root: what is not reached is on a cycle. Not recursive: a chain of nodes
 /// may be as long as the file.
-core::Result<void> checkForest(const std::vector<GltfNode>& nodes, GltfProblems& problems) {
+void checkForest(const std::vector<GltfNode>& nodes, GltfProblems& problems) {
     struct Visit {
         int node;
         int depth;
@@ -151,13 +151,14 @@ core::Result<void> checkForest(const std::vector<GltfNode>& nodes, GltfProblems&
         const auto index = static_cast<std::size_t>(visit.node);
         const std::string at = pointer("/nodes", index);
         reached[index] = true;
-        if (visit.depth > kMaxNodeDepth) {
-            return core::refused(
-                "nodes are nested more than " + std::to_string(kMaxNodeDepth) + " deep", at);
+        if (visit.depth == kMaxNodeDepth + 1) {
+            problems.refuse("nodes are nested more than " + std::to_string(kMaxNodeDepth) + " deep",
+                            at);
         }
-        const glm::mat4 world = visit.worldFromNode * nodes[index].matrix;
+        glm::mat4 world = visit.worldFromNode * nodes[index].matrix;
         if (!finite(world)) {
-            return core::refused("node's transform in the world is not finite", at);
+            problems.refuse("node's transform in the world is not finite", at);
+            world = glm::mat4(1.0f); // the children are not to blame
         }
         for (const int child : nodes[index].children) {
             open.push_back({child, visit.depth + 1, world});
@@ -169,12 +170,11 @@ core::Result<void> checkForest(const std::vector<GltfNode>& nodes, GltfProblems&
                             pointer("/nodes", i));
         }
     }
-    return {};
 }
 
 } // namespace
 
-core::Result<void> convertNodes(GltfContext& context) {
+void convertNodes(GltfContext& context) {
     for (std::size_t i = 0; i < context.model.nodes.size(); ++i) {
         core::Result<GltfNode> node = readNode(context, i);
         if (!node) {
@@ -183,10 +183,10 @@ core::Result<void> convertNodes(GltfContext& context) {
         context.file.nodes.push_back(node ? std::move(*node) : GltfNode());
     }
     linkParents(context.file.nodes, context.problems);
-    return checkForest(context.file.nodes, context.problems);
+    checkForest(context.file.nodes, context.problems);
 }
 
-core::Result<void> convertScenes(GltfContext& context) {
+void convertScenes(GltfContext& context) {
     std::vector<std::size_t> usedBy(context.file.nodes.size(), context.model.scenes.size());
     for (std::size_t i = 0; i < context.model.scenes.size(); ++i) {
         const tinygltf::Scene& source = context.model.scenes[i];
@@ -210,7 +210,6 @@ core::Result<void> convertScenes(GltfContext& context) {
     context.file.defaultScene = given != nullptr              ? given->get<int>()
                                 : context.file.scenes.empty() ? kNone
                                                               : 0;
-    return {};
 }
 
 } // namespace lodestar::io::detail

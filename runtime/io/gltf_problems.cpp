@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/gltf_problems.h"
 
+#include <vector>
+
 namespace lodestar::io {
 namespace {
 
@@ -21,8 +23,15 @@ void GltfProblems::refuse(std::string what, std::string where) {
     const std::size_t second = where.find('/', 1);
     const std::size_t third = second == std::string::npos ? second : where.find('/', second + 1);
     tainted_.insert(where.substr(0, third));
+    what = shortened(std::move(what));
+    where = shortened(std::move(where));
     if (refusedCount_++ == 0) {
-        first_ = core::refused(shortened(what), shortened(where));
+        first_ = core::refused(what, where);
+    }
+    if (repairedAt_.erase(where) > 0) {
+        std::erase_if(list_, [&](const GltfProblem& problem) {
+            return problem.repaired && problem.where == where;
+        });
     }
     add({std::move(where), std::move(what), false});
 }
@@ -38,6 +47,9 @@ void GltfProblems::add(GltfProblem problem) {
     }
     problem.where = shortened(std::move(problem.where));
     problem.what = shortened(std::move(problem.what));
+    if (problem.repaired) {
+        repairedAt_.insert(problem.where);
+    }
     list_.push_back(std::move(problem));
 }
 

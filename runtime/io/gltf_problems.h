@@ -23,7 +23,8 @@ class GltfProblems {
 public:
     static constexpr std::size_t kMax = 1000;
 
-    /// A problem that no picture can be made with.
+    /// A problem that no picture can be made with. Replaces what was said as repaired of the very
+    /// same place.
     void refuse(std::string what, std::string where);
     void refuse(const core::Error& error) { refuse(error.what, error.where); }
     /// A breach of the standard that is mended or does not matter to the picture.
@@ -48,6 +49,7 @@ private:
     void add(GltfProblem problem);
 
     std::vector<GltfProblem> list_;
+    std::set<std::string> repairedAt_; ///< places of the list's repaired problems
     std::set<std::string> tainted_;
     core::Error first_;
     std::size_t refusedCount_ = 0;

@@ -24,26 +24,52 @@ Names namesIn(const Json& document, const char* key) {
     return names;
 }
 
+/// A step of a walk. Its pointer is made only where there is something to say of it, and no longer
+/// than people read: keys may be long, and each would be copied for everything below it.
+struct Place {
+    const Place* parent = nullptr;
+    std::string_view key;
+
+    [[nodiscard]] std::string pointer() const {
+        std::string text;
+        append(text);
+        return text;
+    }
+
+private:
+    static constexpr std::size_t kMaxPointer = 512;
+
+    void append(std::string& text) const {
+        if (parent != nullptr) {
+            parent->append(text);
+        }
+        if (text.size() < kMaxPointer) {
+            text += '/';
+            text += key.substr(0, kMaxPointer);
+        }
+    }
+};
+
 /// What holds everywhere: no empty array, no extension that is not declared.
-void checkEverywhere(const Json& value, const std::string& at, const Names& used,
+void checkEverywhere(const Json& value, const Place* at, const Names& used,
                      GltfProblems& problems) {
     for (const auto& [key, entry] : value.items()) {
-        const std::string here = at + "/" + key;
+        const Place here{at, key};
         if (key == "extras" || !entry.is_structured()) {
             continue;
         }
         if (entry.empty() && (entry.is_array() || key == "attributes")) {
-            problems.repaired("must not be empty", here);
+            problems.repaired("must not be empty", here.pointer());
         }
         if (key == "extensions" && entry.is_object()) {
             for (const auto& [name, content] : entry.items()) {
                 if (used.count(name) == 0) {
                     problems.repaired("extension is not named in extensionsUsed",
-                                      here + "/" + name);
+                                      Place{&here, name}.pointer());
                 }
             }
         }
-        checkEverywhere(entry, here, used, problems);
+        checkEverywhere(entry, &here, used, problems);
     }
 }
 
@@ -105,10 +131,10 @@ void inRange(const Json& object, const char* key, double low, double high, const
 }
 
 /// Textures that a material, or an extension of it, names.
-void checkTextureRefs(const Json& value, const std::string& at, std::size_t textures,
+void checkTextureRefs(const Json& value, const Place* at, std::size_t textures,
                       GltfProblems& problems) {
     for (const auto& [key, entry] : value.items()) {
-        const std::string here = at + "/" + key;
+        const Place here{at, key};
         if (key == "extras" || !entry.is_object()) {
             continue;
         }
@@ -117,9 +143,9 @@ void checkTextureRefs(const Json& value, const std::string& at, std::size_t text
             !(index->is_number_unsigned() && index->get<std::uint64_t>() < textures)) {
             problems.repaired("index " + index->dump() + " points at nothing: there are " +
                                   std::to_string(textures) + " textures",
-                              here + "/index");
+                              here.pointer() + "/index");
         }
-        checkTextureRefs(entry, here, textures, problems);
+        checkTextureRefs(entry, &here, textures, problems);
     }
 }
 
@@ -127,7 +153,8 @@ void checkMaterials(const Json& document, GltfProblems& problems) {
     const std::size_t textures = memberSize(document, "textures");
     const double most = std::numeric_limits<double>::max();
     eachClean(document, "materials", problems, [&](const Json& material, const std::string& at) {
-        checkTextureRefs(material, at, textures, problems);
+        const Place here{nullptr, std::string_view(at).substr(1)}; // without the slash
+        checkTextureRefs(material, &here, textures, problems);
         inRange(material, "emissiveFactor", 0.0, 1.0, at, problems);
         inRange(material, "alphaCutoff", 0.0, most, at, problems);
         if (const Json* pbr = member(material, "pbrMetallicRoughness")) {
@@ -272,7 +299,7 @@ void checkBufferUris(const Json& document, GltfProblems& problems) {
 } // namespace
 
 void checkRules(const Json& document, const std::vector<Bytes>& buffers, GltfProblems& problems) {
-    checkEverywhere(document, "", namesIn(document, "extensionsUsed"), problems);
+    checkEverywhere(document, nullptr, namesIn(document, "extensionsUsed"), problems);
     for (const auto check : {checkDocument, checkMaterials, checkTexturesAndImages, checkNodes,
                              checkLights, checkBufferUris, checkMeshRules}) {
         check(document, problems);

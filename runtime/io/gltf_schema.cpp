@@ -205,8 +205,11 @@ public:
         if (!value.is_number_integer()) {
             problems_.refuse("must be an index (an integer)", at);
         } else if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= size) {
-            problems_.refuse("index " + value.dump() + " points at nothing: there are " +
-                                 std::to_string(size) + " " + array,
+            // -0 is lexed as a signed number and printed without its sign.
+            const bool signedZero = !value.is_number_unsigned() && value.get<double>() == 0.0;
+            problems_.refuse("index " + (signedZero ? "-0" : value.dump()) +
+                                 " points at nothing: there are " + std::to_string(size) + " " +
+                                 array,
                              at);
         }
     }
@@ -346,7 +349,9 @@ void checkChannels(const Json& document, Checker& checker) {
         const std::string at = pointer("/animations", i) + "/channels";
         for (std::size_t c = 0; c < memberSize(animation, "channels"); ++c) {
             const Json* sampler = member(animation["channels"][c], "sampler");
-            if (sampler != nullptr && sampler->is_number_unsigned()) {
+            // Anything else was refused with the table.
+            if (sampler != nullptr && sampler->is_number_integer() &&
+                sampler->get<double>() >= 0.0 && sampler->get<double>() <= kIntMax) {
                 checker.reference(*sampler, pointer(at, c) + "/sampler", samplers, "samplers");
             }
         }

@@ -129,44 +129,64 @@ core::Result<void> readInverseBind(GltfContext& context, const Json& json, const
 }
 
 /// The largest joint that a vertex follows; -1 where none has joints.
-int largestJoint(const GltfPrimitive& primitive) {
+int largestJoint(const GltfMesh& mesh) {
     int largest = -1;
-    for (const auto& set : primitive.joints) {
-        for (const glm::u16vec4& four : set) {
-            largest = std::max({largest, int{four.x}, int{four.y}, int{four.z}, int{four.w}});
+    for (const GltfPrimitive& primitive : mesh.primitives) {
+        for (const auto& set : primitive.joints) {
+            for (const glm::u16vec4& four : set) {
+                largest = std::max({largest, int{four.x}, int{four.y}, int{four.z}, int{four.w}});
+            }
         }
     }
     return largest;
 }
 
-core::Result<void> checkSkinOf(GltfContext& context, GltfNode& node, const std::string& at) {
+core::Result<GltfSkin> readSkin(GltfContext& context, const Json& json, const std::string& at) {
+    GltfSkin skin;
+    if (const Json* name = member(json, "name")) {
+        skin.name = name->get<std::string>();
+    }
+    skin.joints = json["joints"].get<std::vector<int>>();
+    if (skin.joints.empty()) {
+        return core::refused("a skin has at least one joint", at + "/joints");
+    }
+    std::vector<int> sorted = skin.joints;
+    std::sort(sorted.begin(), sorted.end());
+    const bool twice = std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+    context.file.warnings.add("skin that names a joint twice", twice ? 1 : 0);
+    if (const Json* skeleton = member(json, "skeleton")) {
+        skin.skeleton = skeleton->get<int>();
+    }
+    core::Result<void> read = readInverseBind(context, json, at, skin);
+    if (!read) {
+        return read.error();
+    }
+    return skin;
+}
+
+/// @param largest the largest joint of each mesh
+void checkSkinOf(GltfContext& context, std::size_t index, const std::vector<int>& largest) {
+    GltfNode& node = context.file.nodes[index];
     if (node.skin == kNone) {
-        return {};
+        return;
     }
     if (node.mesh == kNone) {
         context.file.warnings.add("node with a skin but no mesh, skin ignored");
         node.skin = kNone;
-        return {};
+        return;
     }
-    const std::size_t joints =
-        context.file.skins[static_cast<std::size_t>(node.skin)].joints.size();
-    bool follows = false;
-    for (const GltfPrimitive& primitive :
-         context.file.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
-        const int largest = largestJoint(primitive);
-        follows = follows || largest >= 0;
-        if (largest >= static_cast<int>(joints)) {
-            return core::refused("a vertex of mesh " + std::to_string(node.mesh) +
-                                     " follows joint " + std::to_string(largest) +
-                                     ", the skin has " + std::to_string(joints),
-                                 at + "/skin");
-        }
-    }
-    if (!follows) {
+    const auto skin = static_cast<std::size_t>(node.skin);
+    const int follows = largest[static_cast<std::size_t>(node.mesh)];
+    const auto joints = static_cast<int>(context.file.skins[skin].joints.size());
+    if (follows < 0) {
         context.file.warnings.add("node with a skin whose mesh has no joints, skin ignored");
         node.skin = kNone;
+    } else if (follows >= joints && context.problems.clean(pointer("/skins", skin))) {
+        context.problems.refuse("a vertex of mesh " + std::to_string(node.mesh) +
+                                    " follows joint " + std::to_string(follows) +
+                                    ", the skin has " + std::to_string(joints),
+                                pointer("/nodes", index) + "/skin");
     }
-    return {};
 }
 
 } // namespace
@@ -210,39 +230,26 @@ core::Result<void> readInfluences(GltfContext& context, const tinygltf::Primitiv
     return {};
 }
 
-core::Result<void> convertSkins(GltfContext& context) {
+void convertSkins(GltfContext& context) {
     for (std::size_t i = 0; i < memberSize(context.document, "skins"); ++i) {
-        const Json& json = context.document["skins"][i];
         const std::string at = pointer("/skins", i);
-        GltfSkin skin;
-        if (const Json* name = member(json, "name")) {
-            skin.name = name->get<std::string>();
+        GltfSkin& skin = context.file.skins.emplace_back();
+        if (!context.problems.clean(at)) {
+            continue;
         }
-        skin.joints = json["joints"].get<std::vector<int>>();
-        if (skin.joints.empty()) {
-            return core::refused("a skin has at least one joint", at + "/joints");
+        core::Result<GltfSkin> read = readSkin(context, context.document["skins"][i], at);
+        if (read) {
+            skin = std::move(*read);
+        } else {
+            context.problems.refuse(read.error());
         }
-        std::vector<int> sorted = skin.joints;
-        std::sort(sorted.begin(), sorted.end());
-        const bool twice = std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
-        context.file.warnings.add("skin that names a joint twice", twice ? 1 : 0);
-        if (const Json* skeleton = member(json, "skeleton")) {
-            skin.skeleton = skeleton->get<int>();
-        }
-        core::Result<void> read = readInverseBind(context, json, at, skin);
-        if (!read) {
-            return read;
-        }
-        context.file.skins.push_back(std::move(skin));
     }
+    std::vector<int> largest(context.file.meshes.size());
+    std::transform(context.file.meshes.begin(), context.file.meshes.end(), largest.begin(),
+                   largestJoint);
     for (std::size_t n = 0; n < context.file.nodes.size(); ++n) {
-        core::Result<void> checked =
-            checkSkinOf(context, context.file.nodes[n], pointer("/nodes", n));
-        if (!checked) {
-            return checked;
-        }
+        checkSkinOf(context, n, largest);
     }
-    return {};
 }
 
 } // namespace lodestar::io::detail

@@ -15,7 +15,7 @@ using testing::TemporaryFolder;
 
 core::Result<io::GltfFile> loadText(const std::string& text) {
     const TemporaryFolder folder;
-    return io::loadGltf(folder.write("x.gltf", text));
+    return testing::loadAndCheck(folder.write("x.gltf", text));
 }
 
 core::Result<io::GltfFile> load(const Json& document,
@@ -69,7 +69,7 @@ TEST(GltfContent, TheTriangleIsWholeInBothContainers) {
     const TemporaryFolder folder;
     Json bare = document;
     const io::Bytes binary = testing::glb(bare.dump(), testing::triangleBytes());
-    const auto fromGlb = io::loadGltf(folder.write("x.glb", binary));
+    const auto fromGlb = testing::loadAndCheck(folder.write("x.glb", binary));
     ASSERT_TRUE(fromGlb.ok()) << fromGlb.error().message();
     const io::GltfFile fromText = loaded(document);
     for (const io::GltfFile* file : {&*fromGlb, &fromText}) {

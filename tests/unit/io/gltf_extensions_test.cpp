@@ -15,7 +15,7 @@ using testing::Json;
 
 core::Result<io::GltfFile> load(const Json& document) {
     const testing::TemporaryFolder folder;
-    return io::loadGltf(folder.write("x.gltf", testing::documentText(document)));
+    return testing::loadAndCheck(folder.write("x.gltf", testing::documentText(document)));
 }
 
 io::GltfFile loaded(const Json& document) {

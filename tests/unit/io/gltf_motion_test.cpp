@@ -67,7 +67,7 @@ struct Moving {
 
     [[nodiscard]] core::Result<io::GltfFile> load() const {
         const testing::TemporaryFolder folder;
-        return io::loadGltf(folder.write("x.gltf", testing::documentText(document, bytes)));
+        return testing::loadAndCheck(folder.write("x.gltf", testing::documentText(document, bytes)));
     }
 };
 
@@ -145,7 +145,7 @@ TEST(GltfMotion, WhatIsWrongIsRefusedWithItsPlace) {
         std::function<void(Moving&)> change;
         const char* where;
     };
-    const auto sampler = [](Moving& m, const char* key, int accessor, int which = 0) {
+    const auto sampler = [](Moving& m, const char* key, int accessor, std::size_t which = 0) {
         m.document["animations"][0]["samplers"][which][key] = accessor;
     };
     const auto attribute = [](Moving& m, const char* key, int accessor) {

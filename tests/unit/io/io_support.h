@@ -21,8 +21,13 @@ namespace lodestar::testing {
 
 using Json = nlohmann::json;
 
-/// The time no hostile input may exceed.
+/// The time no hostile input may exceed. Sanitizers make everything several times slower: there,
+/// only a hang is looked for.
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr double kMaxSeconds = 30.0;
+#else
 inline constexpr double kMaxSeconds = 2.0;
+#endif
 
 class TemporaryFolder {
 public:
@@ -76,6 +81,28 @@ inline void expectOneLine(const core::Error& error, const std::string& file) {
     EXPECT_GT(message.size(), file.size() + 5) << message;
     EXPECT_LT(message.size(), file.size() + 800) << message;
     EXPECT_EQ(error.code, core::ErrorCode::InputRefused) << message;
+}
+
+/// Loads a file, and checks that checkGltf comes to the same end.
+inline core::Result<io::GltfFile> loadAndCheck(const std::filesystem::path& path,
+                                               const io::GltfOptions& options = {}) {
+    const StopWatch loading;
+    core::Result<io::GltfFile> file = io::loadGltf(path, options);
+    EXPECT_LT(loading.seconds(), kMaxSeconds) << "loading";
+    const StopWatch checking;
+    const io::GltfCheck check = io::checkGltf(path, options);
+    EXPECT_LT(checking.seconds(), kMaxSeconds) << "checking";
+    EXPECT_EQ(check.file.has_value(), file.ok())
+        << (file.ok() ? check.problems.first().what : file.error().message());
+    EXPECT_EQ(check.problems.refused(), !file.ok());
+    if (check.file && file) {
+        EXPECT_EQ(check.file->warnings.counts(), file->warnings.counts());
+    }
+    if (!file && check.problems.refused()) {
+        EXPECT_EQ(check.problems.first().where, file.error().where);
+        EXPECT_EQ(check.problems.first().what, file.error().what);
+    }
+    return file;
 }
 
 inline std::string base64(const io::Bytes& bytes) {
