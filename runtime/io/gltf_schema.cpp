@@ -323,7 +323,12 @@ void checkExtensions(const Json& document, Checker& checker) {
     }
     const Json* lights =
         extensions == nullptr ? nullptr : member(*extensions, "KHR_lights_punctual");
-    const std::size_t lightCount = lights == nullptr ? 0 : memberSize(*lights, "lights");
+    const Json* list = lights == nullptr ? nullptr : member(*lights, "lights");
+    // Where the list itself was refused, nobody knows what an index points at.
+    const std::size_t lightCount = lights == nullptr ? 0
+                                   : list == nullptr || !list->is_array()
+                                       ? std::numeric_limits<std::size_t>::max()
+                                       : list->size();
     for (std::size_t i = 0; i < memberSize(document, "nodes"); ++i) {
         const Json* own = member(document["nodes"][i], "extensions");
         const Json* punctual = own == nullptr ? nullptr : member(*own, "KHR_lights_punctual");

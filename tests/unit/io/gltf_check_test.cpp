@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
 // Files with many problems: every one is named at its pointer, and loading stops at the first.
-#include <set>
+#include <algorithm>
 
+#include "io/image_file.h"
 #include "unit/io/io_support.h"
 
 namespace lodestar {
 namespace {
 
 using testing::Json;
+using testing::pointers;
 using testing::TemporaryFolder;
-
-std::set<std::string> pointers(const io::GltfCheck& check, bool repaired) {
-    std::set<std::string> result;
-    for (const io::GltfProblem& problem : check.problems.list()) {
-        if (problem.repaired == repaired) {
-            result.insert(problem.where);
-        }
-    }
-    return result;
-}
 
 TEST(GltfCheck, AGoodFileHasNoRefusalAndIsLoaded) {
     const TemporaryFolder folder;
@@ -95,6 +87,153 @@ TEST(GltfCheck, TheListIsBounded) {
     EXPECT_EQ(check.problems.list().size(), io::GltfProblems::kMax);
     EXPECT_EQ(check.problems.refusedCount(), 1500U);
     EXPECT_GE(check.problems.leftOut(), 500U);
+}
+
+io::GltfCheck checked(const Json& document) {
+    const TemporaryFolder folder;
+    return io::checkGltf(folder.write("x.gltf", testing::documentText(document)));
+}
+
+std::set<std::string> refused(const Json& document) {
+    return pointers(checked(document), false);
+}
+
+// Faults that come to light in the data, one step of loading after the other.
+TEST(GltfCheck, EveryElementOfEveryStepIsLookedAt) {
+    Json document = testing::triangleDocument();
+    document["accessors"].push_back({{"componentType", 5126}, {"count", 1}, {"type", "MAT4"}});
+    const Json still = document["animations"][0];
+    Json curved = still;
+    curved["samplers"][0]["interpolation"] = "BEZIER";
+    Json broken = still;
+    broken["channels"][0]["target"]["node"] = 9;
+    document["animations"] = {curved, still, broken, curved};
+    document["skins"] = {{{"joints", Json::array()}},
+                         {{"joints", {0, 1}}, {"inverseBindMatrices", 6}},
+                         {{"joints", {9}}}};
+    document["nodes"][0]["weights"] = {1, 2};
+    document["meshes"].push_back(
+        {{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}, {"weights", {1}}});
+    document["meshes"].push_back(document["meshes"][1]);
+    document["extensionsUsed"].push_back("EXT_lights_image_based");
+    document["extensions"]["EXT_lights_image_based"]["lights"] =
+        Json::parse(R"([{"specularImages":[[0]]},{"intensity":"x"}])");
+    document["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 1;
+    document["scenes"].push_back(document["scenes"][0]);
+    document["scenes"][1]["extensions"]["EXT_lights_image_based"]["light"] = 2;
+    const std::string light = "/extensions/EXT_lights_image_based";
+    EXPECT_EQ(refused(document),
+              (std::set<std::string>{
+                  "/animations/0/samplers/0/interpolation", "/animations/2/channels/0/target/node",
+                  "/animations/3/samplers/0/interpolation", "/skins/0/joints",
+                  "/skins/1/inverseBindMatrices", "/skins/2/joints/0", "/nodes/0/weights",
+                  "/meshes/1/weights", "/meshes/2/weights", light + "/lights/0/specularImages/0",
+                  light + "/lights/1/intensity", "/scenes/1" + light + "/light"}));
+}
+
+TEST(GltfCheck, TransformsAndDepthDoNotEndIt) {
+    Json document = {{"asset", {{"version", "2.0"}}}, {"scenes", {{{"nodes", {0}}}}}};
+    for (int i = 0; i < 300; ++i) {
+        document["nodes"].push_back({{"children", {i + 1}}});
+    }
+    const Json vast = {{"scale", {1e20, 1e20, 1e20}}, {"children", {302}}};
+    document["nodes"].push_back({{"name", "end of the chain"}});
+    document["nodes"].push_back(vast);
+    document["nodes"].push_back({{"scale", {1e20, 1e20, 1e20}}});
+    document["skins"] = {{{"joints", Json::array()}}};
+    EXPECT_EQ(refused(document),
+              (std::set<std::string>{"/nodes/256", "/nodes/302", "/skins/0/joints"}));
+}
+
+TEST(GltfCheck, ARefusedLightBlamesNoOther) {
+    Json document = testing::triangleDocument();
+    document["extensionsUsed"] = {"KHR_lights_punctual", 5, "EXT_lights_image_based"};
+    document["extensions"]["EXT_lights_image_based"]["lights"] =
+        Json::parse(R"([{"specularImages":[[0,0,0,0,0,0]]}])");
+    document["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 0;
+    document["extensions"]["KHR_lights_punctual"]["lights"][0]["color"] = {1};
+    const std::string light = "/extensions/KHR_lights_punctual/lights";
+    EXPECT_EQ(refused(document), (std::set<std::string>{"/extensionsUsed/1", light + "/0/color"}));
+    document["extensions"]["KHR_lights_punctual"]["lights"] = 5;
+    EXPECT_EQ(refused(document), (std::set<std::string>{"/extensionsUsed/1", light}));
+    document["extensions"] = 5;
+    EXPECT_EQ(refused(document).count("/scenes/0/extensions/EXT_lights_image_based/light"), 0U);
+}
+
+TEST(GltfCheck, ASparseIndexCountsWhereItIsUsed) {
+    Json document = testing::triangleDocument();
+    const Json sparse = Json::parse(
+        R"({"count":1,"indices":{"bufferView":0,"byteOffset":14,"componentType":5121},
+            "values":{"bufferView":1}})");
+    document["accessors"].push_back(document["accessors"][1]);
+    document["accessors"][6]["sparse"] = sparse;
+    const TemporaryFolder folder;
+    const auto path = folder.write("x.gltf", testing::documentText(document));
+    EXPECT_TRUE(testing::loadAndCheck(path).ok());
+    EXPECT_EQ(pointers(io::checkGltf(path), true).count("/accessors/6/sparse/indices"), 1U);
+    document["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 6;
+    const io::GltfCheck used = checked(document);
+    EXPECT_EQ(pointers(used, false), std::set<std::string>{"/accessors/6/sparse/indices"});
+    EXPECT_EQ(pointers(used, true).count("/accessors/6/sparse/indices"), 0U);
+}
+
+TEST(GltfCheck, FacesThatMakeNoCubeAreRefusedWhereASceneNamesThem) {
+    const TemporaryFolder folder;
+    core::Image wide(2, 1, 4);
+    std::fill(wide.pixels().begin(), wide.pixels().end(), 1.0f);
+    ASSERT_TRUE(io::writeImage(folder / "wide.png", wide).ok());
+    for (const char* faces : {"[1,1,1,1,1,1]", "[0,0,0,0,0,1]", "[0,0,0,0,0,0]"}) {
+        for (const bool named : {false, true}) {
+            Json document = testing::triangleDocument();
+            document["images"].push_back({{"uri", "wide.png"}});
+            document["extensionsUsed"].push_back("EXT_lights_image_based");
+            document["extensions"]["EXT_lights_image_based"]["lights"][0]["specularImages"] = {
+                Json::parse(faces)};
+            if (named) {
+                document["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 0;
+            }
+            const auto file =
+                testing::loadAndCheck(folder.write("x.gltf", testing::documentText(document)));
+            const bool cube = std::string(faces).find('1') == std::string::npos;
+            ASSERT_EQ(file.ok(), cube || !named) << faces;
+            if (!file.ok()) {
+                EXPECT_EQ(file.error().where,
+                          "/extensions/EXT_lights_image_based/lights/0/specularImages/0");
+            }
+        }
+    }
+}
+
+TEST(GltfCheck, WhatLoadingRefusesIsNotCalledMended) {
+    const std::pair<const char*, const char*> cases[] = {
+        {"/meshes/0/primitives/0/targets/0/POSITION", "/meshes/0/primitives/0/targets"},
+        {"/meshes/0/primitives/0/attributes/WEIGHTS_0", "/meshes/0/primitives/0/attributes"},
+        {"/meshes/0/primitives/0/attributes/NORMAL", ""},
+        {"/meshes/0/weights", ""}};
+    const char* values[] = {R"([{"POSITION":5}])", R"({"POSITION":0,"WEIGHTS_0":0})", "2", "[1,2]"};
+    for (std::size_t i = 0; i < std::size(cases); ++i) {
+        const auto& [where, changed] = cases[i];
+        Json document = testing::triangleDocument();
+        document[Json::json_pointer(*changed == '\0' ? where : changed)] = Json::parse(values[i]);
+        const io::GltfCheck check = checked(document);
+        EXPECT_EQ(pointers(check, false), std::set<std::string>{where});
+        for (const std::string& repaired : pointers(check, true)) {
+            EXPECT_FALSE(std::string(where).starts_with(repaired)) << repaired;
+        }
+    }
+    // A later set is not read.
+    Json document = testing::triangleDocument();
+    document["accessors"].push_back({{"componentType", 5126}, {"count", 3}, {"type", "VEC4"}});
+    document["accessors"].push_back({{"componentType", 5121}, {"count", 3}, {"type", "VEC4"}});
+    Json& attributes = document["meshes"][0]["primitives"][0]["attributes"];
+    for (const char* set : {"0", "1", "2"}) {
+        attributes[std::string("WEIGHTS_") + set] = 6;
+        attributes[std::string("JOINTS_") + set] = 7;
+    }
+    attributes.erase("WEIGHTS_2");
+    const io::GltfCheck check = checked(document);
+    EXPECT_TRUE(check.file.has_value());
+    EXPECT_EQ(pointers(check, true).count("/meshes/0/primitives/0/attributes"), 1U);
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -83,7 +84,8 @@ inline void expectOneLine(const core::Error& error, const std::string& file) {
     EXPECT_EQ(error.code, core::ErrorCode::InputRefused) << message;
 }
 
-/// Loads a file, and checks that checkGltf comes to the same end. @param maxSeconds for each of both
+/// Loads a file, and checks that checkGltf comes to the same end. @param maxSeconds for each of
+/// both
 inline core::Result<io::GltfFile> loadAndCheck(const std::filesystem::path& path,
                                                const io::GltfOptions& options = {},
                                                double maxSeconds = kMaxSeconds) {
@@ -104,6 +106,17 @@ inline core::Result<io::GltfFile> loadAndCheck(const std::filesystem::path& path
         EXPECT_EQ(check.problems.first().what, file.error().what);
     }
     return file;
+}
+
+/// Where a check found refusals, or what is mended.
+inline std::set<std::string> pointers(const io::GltfCheck& check, bool repaired) {
+    std::set<std::string> result;
+    for (const io::GltfProblem& problem : check.problems.list()) {
+        if (problem.repaired == repaired) {
+            result.insert(problem.where);
+        }
+    }
+    return result;
 }
 
 inline std::string base64(const io::Bytes& bytes) {
