@@ -48,14 +48,14 @@ Json problemsJson(const io::GltfProblems& problems) {
 
 /// A scene's JSON; the first refusal goes to `refusal`, if there is one.
 Json checkScene(const std::string& file, std::optional<core::Error>& refusal) {
-    const io::GltfCheck check = io::checkGltf(file);
+    io::GltfCheck check = io::checkGltf(file);
     Json json;
     json["file"] = file;
     json["kind"] = "scene";
     if (check.file) {
         warn(check.file->warnings, file);
-        describeScene(*check.file, json);
         json["warnings"] = warningsJson(check.file->warnings);
+        describeScene(std::move(*check.file), json);
     } else {
         refusal = core::inFile(check.problems.first(), file);
         json["error"] = refusal->what;

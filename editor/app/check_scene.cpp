@@ -2,6 +2,7 @@
 #include "app/check_scene.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -90,8 +91,8 @@ Json names(const std::vector<T>& things) {
 }
 
 /// Of the default scene, in metres of the world; null where nothing has a place.
-Json boundsJson(const io::GltfFile& file) {
-    const scene::Bounds bounds = scene::buildScene(file).worldBounds();
+Json boundsJson(io::GltfFile&& file) {
+    const scene::Bounds bounds = scene::buildScene(std::move(file)).worldBounds();
     if (bounds.empty()) {
         return nullptr;
     }
@@ -101,7 +102,7 @@ Json boundsJson(const io::GltfFile& file) {
 
 } // namespace
 
-void describeScene(const io::GltfFile& scene, Json& json) {
+void describeScene(io::GltfFile&& scene, Json& json) {
     const MeshCounts counts = countMeshes(scene);
     json["scenes"] = scene.scenes.size();
     json["sceneNames"] = names(scene.scenes);
@@ -126,9 +127,9 @@ void describeScene(const io::GltfFile& scene, Json& json) {
     json["animations"] = scene.animations.size();
     json["skins"] = scene.skins.size();
     json["bufferBytes"] = scene.bufferBytes;
-    json["boundingBox"] = boundsJson(scene);
     json["extensionsUsed"] = extensionsJson(scene.extensionsUsed);
     json["extensionsRequired"] = extensionsJson(scene.extensionsRequired);
+    json["boundingBox"] = boundsJson(std::move(scene));
 }
 
 } // namespace lodestar::app

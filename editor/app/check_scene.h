@@ -7,7 +7,7 @@
 
 namespace lodestar::app {
 
-/// Adds what a scene holds; the keys are a contract (docs/command-line.md).
-void describeScene(const io::GltfFile& scene, nlohmann::ordered_json& json);
+/// Adds what a scene holds; the keys are a contract (docs/command-line.md). Uses the file up.
+void describeScene(io::GltfFile&& scene, nlohmann::ordered_json& json);
 
 } // namespace lodestar::app

@@ -153,7 +153,8 @@ struct GltfAnimationChannel {
     int sampler = 0; ///< of the same animation
 };
 
-/// No two channels of an animation move the same thing, and none a node with a matrix.
+/// No two channels of an animation move the same thing, and none the transform of a node with a
+/// matrix.
 struct GltfAnimation {
     std::string name;
     std::vector<GltfAnimationChannel> channels;
@@ -263,7 +264,7 @@ struct GltfFile {
 
 struct GltfOptions {
     std::filesystem::path assetRoot; ///< empty: the file's own folder
-    bool decodeImages = true;        ///< false leaves images empty (sizes only)
+    bool decodeImages = true;        ///< false leaves images empty, and their infos without sizes
 };
 
 /// Loads .gltf or .glb. @errors InputRefused with the JSON pointer or byte of what is wrong

@@ -136,9 +136,7 @@ void convertCameras(GltfContext& context) {
 }
 
 void convertLights(GltfContext& context) {
-    const Json* extensions = member(context.document, "extensions");
-    const Json* punctual =
-        extensions == nullptr ? nullptr : member(*extensions, "KHR_lights_punctual");
+    const Json* punctual = extensionOf(context.document, "KHR_lights_punctual");
     for (std::size_t i = 0; punctual != nullptr && i < memberSize(*punctual, "lights"); ++i) {
         context.file.lights.push_back(readLight((*punctual)["lights"][i], context.file.warnings));
     }

@@ -37,6 +37,10 @@ inline constexpr std::size_t kMaxGeometryBytes = std::size_t{512} << 20;
 inline constexpr std::size_t kMaxImageBytes = std::size_t{2} << 30;
 /// Elements of an accessor that has no data (all zeros).
 inline constexpr std::size_t kMaxZeroElements = std::size_t{1} << 20;
+/// How far from 1 the length of a vector of 3 or of 4 may lie: what quantisation to 8 bits leaves,
+/// as in Khronos' validator.
+inline constexpr double kUnitTolerance3 = 0.00674;
+inline constexpr double kUnitTolerance4 = 0.00769;
 /// Where parseModel keeps a primitive's indices: tinygltf 2.7 refuses index accessors without data.
 inline constexpr const char* kIndicesAttribute = "_LODESTAR_INDICES";
 
@@ -139,8 +143,8 @@ struct GltfContext {
 [[nodiscard]] core::Result<std::vector<std::uint32_t>> readIndices(GltfContext& context,
                                                                    int accessor);
 
-/// The converting steps: what is wrong is refused in the context's problems, a placeholder stands in
-/// its place, and the rest is gone through.
+/// The converting steps: what is wrong is refused in the context's problems, a placeholder stands
+/// in its place, and the rest is gone through.
 void convertMeshes(GltfContext& context);
 /// Turns strips, loops and fans into lists, by glTF's mode 0 to 6.
 [[nodiscard]] std::vector<std::uint32_t> unrolled(const std::vector<std::uint32_t>& indices,

@@ -73,10 +73,7 @@ public:
 private:
     void readEmission(const tinygltf::Material& source, const Json& json, GltfMaterial& material) {
         double strength = 1.0;
-        const Json* extensions = member(json, "extensions");
-        const Json* own = extensions == nullptr
-                              ? nullptr
-                              : member(*extensions, "KHR_materials_emissive_strength");
+        const Json* own = extensionOf(json, "KHR_materials_emissive_strength");
         const Json* given = own == nullptr ? nullptr : member(*own, "emissiveStrength");
         if (given != nullptr) {
             strength = given->get<double>();

@@ -176,16 +176,16 @@ private:
         std::size_t needed = 0;
         const auto look = [&](const Json& object, const char* key) {
             const Json* info = member(object, key);
-            if (info == nullptr) {
+            if (info == nullptr || !info->is_object()) {
                 return;
             }
-            const Json* extensions = member(*info, "extensions");
-            const Json* transform =
-                extensions == nullptr ? nullptr : member(*extensions, "KHR_texture_transform");
-            const Json* own = transform == nullptr ? nullptr : member(*transform, "texCoord");
-            const bool given = own != nullptr && own->is_number_unsigned();
-            needed = std::max(needed, 1 + (given ? own->get<std::size_t>()
-                                                 : info->value("texCoord", std::size_t{0})));
+            const Json* transform = extensionOf(*info, "KHR_texture_transform");
+            const Json* set = transform == nullptr ? nullptr : member(*transform, "texCoord");
+            set = set == nullptr ? member(*info, "texCoord") : set;
+            // What is no index is refused with its material.
+            const bool given = set != nullptr && set->is_number_unsigned() &&
+                               set->get<std::uint64_t>() < 0x7fffffff;
+            needed = std::max(needed, 1 + (given ? set->get<std::size_t>() : 0));
         };
         for (const char* key : {"normalTexture", "occlusionTexture", "emissiveTexture"}) {
             look(material, key);
@@ -193,6 +193,14 @@ private:
         if (const Json* pbr = member(material, "pbrMetallicRoughness")) {
             look(*pbr, "baseColorTexture");
             look(*pbr, "metallicRoughnessTexture");
+        }
+        if (const Json* specular = extensionOf(material, "KHR_materials_specular")) {
+            look(*specular, "specularTexture");
+            look(*specular, "specularColorTexture");
+        }
+        const Json* extras = member(material, "extras");
+        if (const Json* own = extras == nullptr ? nullptr : member(*extras, "lodestar")) {
+            look(*own, "exponentTexture");
         }
         if (needed > sets) {
             problems_.repaired("material needs TEXCOORD_" + std::to_string(needed - 1) +

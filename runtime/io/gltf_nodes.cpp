@@ -60,10 +60,8 @@ void readRotation(const std::vector<double>& values, GltfNode& node, core::Tally
         warnings.add("node rotation of no length, taken as none");
         return;
     }
-    // The validator's own tolerance for unit quaternions.
-    constexpr double kUnitTolerance = 0.00769;
     warnings.add("node rotation not of unit length, normalised",
-                 std::abs(length - 1.0) > kUnitTolerance ? 1 : 0);
+                 std::abs(length - 1.0) > kUnitTolerance4 ? 1 : 0);
     node.rotation =
         glm::quat(static_cast<float>(values[3] / length), static_cast<float>(values[0] / length),
                   static_cast<float>(values[1] / length), static_cast<float>(values[2] / length));
@@ -82,9 +80,7 @@ core::Result<GltfNode> readNode(GltfContext& context, std::size_t index) {
     for (std::size_t i = 0; i < memberSize(json, "weights"); ++i) {
         node.weights.push_back(json["weights"][i].get<float>());
     }
-    const Json* extensions = member(json, "extensions");
-    const Json* punctual =
-        extensions == nullptr ? nullptr : member(*extensions, "KHR_lights_punctual");
+    const Json* punctual = extensionOf(json, "KHR_lights_punctual");
     const Json* light = punctual == nullptr ? nullptr : member(*punctual, "light");
     if (light != nullptr) {
         node.light = light->get<int>();

@@ -3,6 +3,7 @@
 // Rules of the standard that loading can do without: the file is read all the same. Source: glTF
 // 2.0 specification, sections 3 and 5, and KHR_lights_punctual.
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <set>
 #include <string_view>
@@ -165,11 +166,7 @@ void checkMaterials(const Json& document, GltfProblems& problems) {
         if (const Json* occlusion = member(material, "occlusionTexture")) {
             inRange(*occlusion, "strength", 0.0, 1.0, at + "/occlusionTexture", problems);
         }
-        const Json* extensions = member(material, "extensions");
-        const Json* strength = extensions == nullptr
-                                   ? nullptr
-                                   : member(*extensions, "KHR_materials_emissive_strength");
-        if (strength != nullptr) {
+        if (const Json* strength = extensionOf(material, "KHR_materials_emissive_strength")) {
             inRange(*strength, "emissiveStrength", 0.0, most,
                     at + "/extensions/KHR_materials_emissive_strength", problems);
         }
@@ -249,10 +246,8 @@ void checkNodes(const Json& document, GltfProblems& problems) {
 }
 
 void checkLights(const Json& document, GltfProblems& problems) {
-    const Json* extensions = member(document, "extensions");
     const std::string path = "/extensions/KHR_lights_punctual";
-    const Json* punctual =
-        extensions == nullptr ? nullptr : member(*extensions, "KHR_lights_punctual");
+    const Json* punctual = extensionOf(document, "KHR_lights_punctual");
     if (punctual == nullptr || !problems.clean(path)) {
         return;
     }

@@ -3,16 +3,9 @@
 // What the files of checkRules share.
 #pragma once
 
-#include <limits>
-
 #include "io/gltf_internal.h"
 
 namespace lodestar::io::detail {
-
-/// How far from 1 the length of a vector of 3 or of 4 may lie: what quantisation to 8 bits leaves,
-/// as in Khronos' validator.
-inline constexpr double kUnitTolerance3 = 0.00674;
-inline constexpr double kUnitTolerance4 = 0.00769;
 
 /// Calls act(element, its pointer) for the elements of an array that stand unrefused.
 template <class Act>

@@ -321,8 +321,7 @@ void checkExtensions(const Json& document, Checker& checker) {
     if (extensions != nullptr) {
         checker.fields(*extensions, kLightsExtension, "/extensions");
     }
-    const Json* lights =
-        extensions == nullptr ? nullptr : member(*extensions, "KHR_lights_punctual");
+    const Json* lights = extensionOf(document, "KHR_lights_punctual");
     const Json* list = lights == nullptr ? nullptr : member(*lights, "lights");
     // Where the list itself was refused, nobody knows what an index points at.
     const std::size_t lightCount = lights == nullptr ? 0
@@ -330,8 +329,7 @@ void checkExtensions(const Json& document, Checker& checker) {
                                        ? std::numeric_limits<std::size_t>::max()
                                        : list->size();
     for (std::size_t i = 0; i < memberSize(document, "nodes"); ++i) {
-        const Json* own = member(document["nodes"][i], "extensions");
-        const Json* punctual = own == nullptr ? nullptr : member(*own, "KHR_lights_punctual");
+        const Json* punctual = extensionOf(document["nodes"][i], "KHR_lights_punctual");
         const Json* light = punctual == nullptr ? nullptr : member(*punctual, "light");
         if (light != nullptr) {
             checker.reference(*light,

@@ -148,13 +148,84 @@ void expectSound(const io::GltfPrimitive& primitive, const io::GltfFile& file) {
     for (const glm::vec4& color : primitive.colors) {
         ASSERT_TRUE(finite(color));
     }
+    for (std::size_t set = 0; set < io::kInfluenceSets; ++set) {
+        EXPECT_EQ(primitive.joints[set].size(), primitive.weights[set].size());
+        EXPECT_TRUE(primitive.weights[set].empty() || primitive.weights[set].size() == n);
+    }
+    for (std::size_t i = 0; i < primitive.weights[0].size(); ++i) {
+        glm::vec4 sum = primitive.weights[0][i];
+        if (!primitive.weights[1].empty()) {
+            sum += primitive.weights[1][i];
+        }
+        ASSERT_NEAR(sum.x + sum.y + sum.z + sum.w, 1.0f, 1e-6f); // eight roundings
+    }
+    const auto sized = [n](const std::vector<glm::vec3>& deltas, bool needed) {
+        return deltas.empty() || (needed && deltas.size() == n);
+    };
+    for (const io::GltfMorphTarget& target : primitive.targets) {
+        EXPECT_TRUE(sized(target.positions, true));
+        EXPECT_TRUE(sized(target.normals, !primitive.normals.empty()));
+        EXPECT_TRUE(sized(target.tangents, !primitive.tangents.empty()));
+    }
+}
+
+/// Joints that vertices follow are joints of the skin.
+void expectSound(const io::GltfNode& node, const io::GltfFile& file) {
+    if (node.mesh == io::kNone) {
+        EXPECT_EQ(node.skin, io::kNone);
+        return;
+    }
+    const io::GltfMesh& mesh = file.meshes.at(static_cast<std::size_t>(node.mesh));
+    EXPECT_TRUE(node.weights.empty() || node.weights.size() == mesh.weights.size());
+    if (node.skin == io::kNone) {
+        return;
+    }
+    const std::size_t joints = file.skins.at(static_cast<std::size_t>(node.skin)).joints.size();
+    for (const io::GltfPrimitive& primitive : mesh.primitives) {
+        for (const auto& set : primitive.joints) {
+            for (const glm::u16vec4& four : set) {
+                ASSERT_LT(std::max({four.x, four.y, four.z, four.w}), joints);
+            }
+        }
+    }
+}
+
+void expectSound(const io::GltfAnimation& animation, const io::GltfFile& file) {
+    for (const io::GltfAnimationChannel& channel : animation.channels) {
+        const io::GltfNode& node = file.nodes.at(static_cast<std::size_t>(channel.node));
+        const io::GltfAnimationSampler& sampler =
+            animation.samplers.at(static_cast<std::size_t>(channel.sampler));
+        const bool spline = sampler.interpolation == io::Interpolation::CubicSpline;
+        ASSERT_FALSE(sampler.times.empty());
+        EXPECT_EQ(sampler.values.size(),
+                  sampler.times.size() * sampler.components * (spline ? 3U : 1U));
+        EXPECT_TRUE(std::is_sorted(sampler.times.begin(), sampler.times.end()));
+        if (channel.path == io::AnimationPath::Weights) {
+            EXPECT_EQ(sampler.components,
+                      file.meshes.at(static_cast<std::size_t>(node.mesh)).weights.size());
+        } else {
+            EXPECT_FALSE(node.hasMatrix);
+            EXPECT_EQ(sampler.components, channel.path == io::AnimationPath::Rotation ? 4U : 3U);
+        }
+    }
 }
 
 void expectSound(const io::GltfFile& file) {
     for (const io::GltfMesh& mesh : file.meshes) {
         for (const io::GltfPrimitive& primitive : mesh.primitives) {
             expectSound(primitive, file);
+            EXPECT_EQ(primitive.targets.size(), mesh.weights.size());
         }
+    }
+    for (const io::GltfSkin& skin : file.skins) {
+        EXPECT_FALSE(skin.joints.empty());
+        EXPECT_EQ(skin.inverseBind.size(), skin.joints.size());
+        for (const int joint : skin.joints) {
+            EXPECT_LT(static_cast<std::size_t>(joint), file.nodes.size());
+        }
+    }
+    for (const io::GltfAnimation& animation : file.animations) {
+        expectSound(animation, file);
     }
     for (const io::GltfTexture& texture : file.textures) {
         EXPECT_LT(texture.image, static_cast<int>(file.images.size()));
@@ -168,6 +239,7 @@ void expectSound(const io::GltfFile& file) {
         EXPECT_LT(node.mesh, static_cast<int>(file.meshes.size()));
         EXPECT_LT(node.camera, static_cast<int>(file.cameras.size()));
         EXPECT_LT(node.light, static_cast<int>(file.lights.size()));
+        expectSound(node, file);
         for (glm::length_t c = 0; c < 4; ++c) {
             EXPECT_TRUE(finite(node.matrix[c]));
         }
