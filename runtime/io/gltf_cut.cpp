@@ -125,9 +125,9 @@ void mendExtensions(Json& document, const GltfProblems& problems) {
 
 void cutOutRefused(Json& document, std::vector<Bytes>& buffers, GltfProblems& problems) {
     spread(document, problems);
-    for (const char* array : {"accessors", "animations", "buffers", "bufferViews", "cameras",
-                              "images", "materials", "meshes", "nodes", "samplers", "scenes",
-                              "skins", "textures"}) {
+    for (const char* array :
+         {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials",
+          "meshes", "nodes", "samplers", "scenes", "skins", "textures"}) {
         for (std::size_t i = 0; i < memberSize(document, array); ++i) {
             if (!problems.clean(pointer(std::string("/") + array, i))) {
                 document[array][i] = standIn(array);

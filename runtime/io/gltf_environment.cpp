@@ -92,8 +92,8 @@ void detail::checkEnvironmentFaces(GltfContext& context) {
             return static_cast<std::size_t>(face) < context.file.images.size() &&
                    context.problems.clean(pointer("/images", static_cast<std::size_t>(face)));
         });
-        core::Result<void> good = named[i] && known ? checkFaces(context.file, i)
-                                                    : core::Result<void>();
+        core::Result<void> good =
+            named[i] && known ? checkFaces(context.file, i) : core::Result<void>();
         if (!good) {
             context.problems.refuse(good.error());
         }

@@ -87,7 +87,8 @@ private:
                                      " elements, POSITION has " + std::to_string(vertexCount_),
                                  at);
         }
-        if (core::Result<void> allowed = checkComponents(context_, name, accessor, at, false); !allowed) {
+        if (core::Result<void> allowed = checkComponents(context_, name, accessor, at, false);
+            !allowed) {
             return allowed.error();
         }
         vertexCount_ = accessor.count;
@@ -295,8 +296,8 @@ core::Result<void> checkComponents(const GltfContext& context, const std::string
         type == TINYGLTF_COMPONENT_TYPE_BYTE || type == TINYGLTF_COMPONENT_TYPE_SHORT;
     const bool direction = name == "NORMAL" || name == "TANGENT";
     const bool plain =
-        isFloat || (isUnsigned && (name == "COLOR_0" ||
-                                   (name.starts_with("TEXCOORD_") && accessor.normalized)));
+        isFloat || (isUnsigned &&
+                    (name == "COLOR_0" || (name.starts_with("TEXCOORD_") && accessor.normalized)));
     const bool quantized = direction ? isSigned && accessor.normalized
                                      : (isSigned || (isUnsigned && !delta)) && name != "COLOR_0";
     if (plain || (quantized && context.file.extensionListed("KHR_mesh_quantization"))) {

@@ -24,9 +24,8 @@ core::Result<std::vector<glm::vec3>> readDeltas(GltfContext& context, const Json
     if (!allowed) {
         return allowed.error();
     }
-    core::Result<std::vector<float>> values =
-        readTyped(context, static_cast<int>(index), "VEC3", {5120, 5122, 5126}, false,
-                  at + "/" + name);
+    core::Result<std::vector<float>> values = readTyped(context, static_cast<int>(index), "VEC3",
+                                                        {5120, 5122, 5126}, false, at + "/" + name);
     if (!values) {
         return values.error();
     }
