@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -74,6 +75,10 @@ struct DayLight {
     glm::dvec3 axis{0.0, 1.0, 0.0};
     std::optional<SunPath> path; ///< where there is one, axes are its answers
     std::vector<DayKey> keys;
+    std::string name{}; ///< for people and the plan; may be empty
+    /// Whether the host's visibility hook is asked for it, as a sun's shadow answers; a sky has none.
+    bool visibility = true;
+    bool add = false; ///< a sky beside the distant environment, not in its place
 };
 
 /// A light put in order: hours in [0, 24) ascending, gradients by `repaired`, axes unit, tints and
