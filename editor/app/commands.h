@@ -16,4 +16,7 @@ void addPlan(CLI::App& app, int& status);
 void addSample(CLI::App& app, int& status);
 void addCheck(CLI::App& app, int& status);
 
+/// All of the executable: reads the command line, runs what it asks for. @return the exit status
+[[nodiscard]] int runProgram(int argc, char** argv);
+
 } // namespace lodestar::app

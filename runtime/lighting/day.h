@@ -76,7 +76,8 @@ struct DayLight {
     std::optional<SunPath> path; ///< where there is one, axes are its answers
     std::vector<DayKey> keys;
     std::string name{}; ///< for people and the plan; may be empty
-    /// Whether the host's visibility hook is asked for it, as a sun's shadow answers; a sky has none.
+    /// Whether the host's visibility hook is asked for it, as a sun's shadow answers; a sky has
+    /// none.
     bool visibility = true;
     bool add = false; ///< a sky beside the distant environment, not in its place
 };
