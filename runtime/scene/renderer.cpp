@@ -3,32 +3,28 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <cstring>
 #include <functional>
 #include <span>
 
 #include <epoxy/gl.h>
 #include <glm/gtc/matrix_inverse.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "gl/timer.h"
 #include "scene/draw_list.h"
+#include "scene/frame_parts.h"
 #include "scene/gpu_deformation.h"
 #include "scene/gpu_environment.h"
 #include "scene/gpu_scene.h"
 #include "scene/presenter.h"
+#include "scene/programs.h"
 
 namespace lodestar::scene {
 namespace {
 
-using lighting::EstimatorKind;
 using Clock = std::chrono::steady_clock;
 
 /// Largest side of a tile, in samples: 2048^2 of colour and depth are 80 MiB.
 constexpr int kTileSide = 2048;
-
-enum Binding : unsigned { kFrameBinding, kDrawBinding, kMaterialBinding };
 
 template <class Block>
 std::span<const std::byte> bytesOf(const Block& block) {
@@ -39,141 +35,13 @@ double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-int specularMacro(EstimatorKind kind) {
-    switch (kind) {
-    case EstimatorKind::Mip:
-        return 0;
-    case EstimatorKind::MipFloor:
-        return 1;
-    case EstimatorKind::Bias:
-    case EstimatorKind::BiasVertex:
-        return 2;
-    default:
-        return 3;
-    }
-}
-
-int diffuseMacro(EstimatorKind kind) {
-    switch (kind) {
-    case EstimatorKind::Sh9:
-        return 1;
-    case EstimatorKind::LowestMip:
-        return 2;
-    case EstimatorKind::Bias:
-    case EstimatorKind::BiasVertex:
-        return 3;
-    default:
-        return 0;
-    }
-}
-
-gl::Defines definesFor(plan::Features features, const RenderSettings& settings) {
-    using plan::Feature;
-    gl::Defines defines;
-    const std::pair<const char*, Feature> macros[] = {
-        {"LODESTAR_NORMALS", Feature::Normals},
-        {"LODESTAR_TANGENTS", Feature::Tangents},
-        {"LODESTAR_VERTEX_COLORS", Feature::VertexColors},
-        {"LODESTAR_BASE_COLOR_TEXTURE", Feature::BaseColorTexture},
-        {"LODESTAR_METALLIC_ROUGHNESS_TEXTURE", Feature::MetallicRoughnessTexture},
-        {"LODESTAR_NORMAL_TEXTURE", Feature::NormalTexture},
-        {"LODESTAR_OCCLUSION_TEXTURE", Feature::OcclusionTexture},
-        {"LODESTAR_EMISSIVE_TEXTURE", Feature::EmissiveTexture},
-        {"LODESTAR_BLINN_PHONG", Feature::BlinnPhong},
-        {"LODESTAR_EXPONENT_TEXTURE", Feature::ExponentTexture},
-        {"LODESTAR_ALPHA_MASK", Feature::AlphaMask},
-        {"LODESTAR_ALPHA_BLEND", Feature::AlphaBlend},
-        {"LODESTAR_PUNCTUAL_LIGHTS", Feature::PunctualLights},
-        {"LODESTAR_ENVIRONMENT", Feature::Environment},
-        {"LODESTAR_TEXTURE_TRANSFORM", Feature::TextureTransform},
-        {"LODESTAR_UNLIT", Feature::Unlit},
-        {"LODESTAR_SPECULAR_TEXTURE", Feature::SpecularTexture},
-        {"LODESTAR_SPECULAR_COLOR_TEXTURE", Feature::SpecularColorTexture},
-        {"LODESTAR_SKINNING", Feature::Skinning},
-        {"LODESTAR_SECOND_JOINTS", Feature::SecondJoints},
-    };
-    for (const auto& [name, feature] : macros) {
-        defines.emplace_back(name, plan::has(features, feature) ? "1" : "0");
-    }
-    defines.emplace_back("LODESTAR_SPECULAR",
-                         std::to_string(specularMacro(settings.specular.kind)));
-    defines.emplace_back("LODESTAR_DIFFUSE", std::to_string(diffuseMacro(settings.diffuse.kind)));
-    defines.emplace_back("LODESTAR_BIAS_VERTEX",
-                         settings.specular.kind == EstimatorKind::BiasVertex ? "1" : "0");
-    return defines;
-}
-
-void setLights(const Scene& scene, blocks::LodestarFrame& block) {
-    int count = 0;
-    for (const PlacedLight& placed : placedLights(scene)) {
-        if (count == LODESTAR_MAX_LIGHTS) {
-            break;
-        }
-        const io::GltfLight& light = *placed.light;
-        const glm::mat4& world = placed.node->worldFromNode;
-        const glm::vec3 z(world[2]);
-        const float length = glm::length(z);
-        const glm::vec3 back = length > 0.0f ? z / length : glm::vec3(0.0f, 0.0f, 1.0f);
-        const bool directional = light.kind == io::LightKind::Directional;
-        block.lightPosition[count] =
-            directional ? glm::vec4(back, 0.0f) : glm::vec4(glm::vec3(world[3]), 1.0f);
-        const float inverseRange = std::isfinite(light.range) ? 1.0f / light.range : 0.0f;
-        block.lightColor[count] = {light.color * light.intensity, inverseRange * inverseRange};
-        block.lightDirection[count] = {-back, 0.0f};
-        block.lightCone[count] = {0.0f, 1.0f, 0.0f, 0.0f};
-        if (light.kind == io::LightKind::Spot) {
-            const float outer = std::cos(light.outerConeAngle);
-            const float scale = 1.0f / std::max(0.001f, std::cos(light.innerConeAngle) - outer);
-            block.lightCone[count] = {scale, -outer * scale, 0.0f, 0.0f};
-        }
-        ++count;
-    }
-    block.lightCount = glm::vec4(static_cast<float>(count));
-}
-
-/// The part of clip space that a tile shows, stretched over the whole of it.
-glm::mat4 tileFromClip(const glm::ivec4& tile, int width, int height) {
-    const glm::vec2 size(static_cast<float>(width), static_cast<float>(height));
-    const glm::vec2 extent(static_cast<float>(tile.z), static_cast<float>(tile.w));
-    const glm::vec2 center =
-        (glm::vec2(static_cast<float>(tile.x), static_cast<float>(tile.y)) + 0.5f * extent) / size;
-    const glm::vec2 ndc(2.0f * center.x - 1.0f, 1.0f - 2.0f * center.y);
-    return glm::scale(glm::mat4(1.0f), glm::vec3(size / extent, 1.0f)) *
-           glm::translate(glm::mat4(1.0f), glm::vec3(-ndc, 0.0f));
-}
-
-/// Averages a tile's samples into the picture; pixels that are not finite become 0 and are counted.
-std::uint64_t resolve(const core::Image& samples, int perSide, const glm::ivec2& at,
-                      core::Image& out) {
-    std::uint64_t repaired = 0;
-    const float weight = 1.0f / static_cast<float>(perSide * perSide);
-    for (int y = 0; y < samples.height() / perSide; ++y) {
-        for (int x = 0; x < samples.width() / perSide; ++x) {
-            glm::vec4 sum(0.0f);
-            for (int j = 0; j < perSide; ++j) {
-                for (int i = 0; i < perSide; ++i) {
-                    const float* s = samples.at(x * perSide + i, y * perSide + j);
-                    sum += glm::vec4(s[0], s[1], s[2], s[3]);
-                }
-            }
-            sum *= weight;
-            if (!std::isfinite(sum.x) || !std::isfinite(sum.y) || !std::isfinite(sum.z) ||
-                !std::isfinite(sum.w)) {
-                sum = glm::vec4(0.0f);
-                ++repaired;
-            }
-            std::memcpy(out.at(at.x + x, at.y + y), &sum, sizeof sum);
-        }
-    }
-    return repaired;
-}
-
 } // namespace
 
 struct Renderer::State {
     State(gl::Device& glDevice, const Scene& drawn, GpuScene uploaded, GpuDeformation deformed)
         : device(glDevice), scene(drawn), gpu(std::move(uploaded)), items(drawItems(drawn)),
-          deformation(std::move(deformed)), fullScreen(glDevice), timer(glDevice) {}
+          deformation(std::move(deformed)), fullScreen(glDevice), timer(glDevice),
+          programs(glDevice) {}
 
     gl::Device& device;
     const Scene& scene;
@@ -184,15 +52,11 @@ struct Renderer::State {
     gl::Timer timer;
     gl::Buffer frameBuffer, drawBuffer, materialBuffer;
     gl::Framebuffer target;
-    std::map<gl::Defines, gl::Program> programs;
-    gl::Program backdrop;
+    Programs programs;
     std::optional<Presenter> presenter;
 
     GpuEnvironment environment;
 
-    core::Result<void> compilePrograms(const plan::EffectPlan& plan,
-                                       const RenderSettings& settings);
-    core::Result<const gl::Program*> program(const gl::Defines& defines);
     /// What becomes of a tile that `target` holds: x, y, width, height in pixels from the top left.
     using TileSink = std::function<void(const glm::ivec4&)>;
     /// All of a frame but what becomes of its pixels.
@@ -207,45 +71,8 @@ struct Renderer::State {
     void drawItem(std::size_t index, plan::Features features, const RenderSettings& settings);
 };
 
-core::Result<const gl::Program*> Renderer::State::program(const gl::Defines& defines) {
-    auto found = programs.find(defines);
-    if (found == programs.end()) {
-        auto made = gl::Program::make(device, "host/mesh.vert", "host/mesh.frag", defines);
-        if (!made) {
-            return made.error();
-        }
-        for (std::size_t unit = 0; unit < kSamplerNames.size(); ++unit) {
-            made->setSampler(kSamplerNames[unit], static_cast<int>(unit));
-        }
-        made->setBlock("LodestarFrame", kFrameBinding);
-        made->setBlock("LodestarDraw", kDrawBinding);
-        made->setBlock("LodestarMaterial", kMaterialBinding);
-        found = programs.emplace(defines, std::move(*made)).first;
-    }
-    return &found->second;
-}
-
-core::Result<void> Renderer::State::compilePrograms(const plan::EffectPlan& plan,
-                                                    const RenderSettings& settings) {
-    for (plan::Features features : plan.drawFeatures) {
-        if (auto made = program(definesFor(features, settings)); !made) {
-            return made.error();
-        }
-    }
-    if (plan.backdrop && !backdrop) {
-        auto made = gl::Program::make(device, "host/backdrop.vert", "host/backdrop.frag", {});
-        if (!made) {
-            return made.error();
-        }
-        backdrop = std::move(*made);
-        backdrop.setSampler("uEnvironment", kEnvironmentUnit);
-        backdrop.setBlock("LodestarFrame", kFrameBinding);
-    }
-    return {};
-}
-
 void Renderer::State::drawBackdrop() {
-    backdrop.use();
+    programs.backdrop().use();
     fullScreen.bind();
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
@@ -282,7 +109,7 @@ void Renderer::State::drawItem(std::size_t index, plan::Features features,
     const io::GltfMaterial& material =
         materialOf(scene, scene.meshes[static_cast<std::size_t>(item.mesh)]
                               .primitives[static_cast<std::size_t>(item.primitive)]);
-    programs.at(definesFor(features, settings)).use();
+    programs.mesh(features, settings).use();
     const blocks::LodestarDraw draw = drawBlock(item, features);
     drawBuffer.update(bytesOf(draw));
     drawBuffer.bindBlock(kDrawBinding);
@@ -362,7 +189,7 @@ core::Result<void> Renderer::State::drawPicture(const View& view, const RenderSe
     block.cameraPosition =
         view.perspective ? glm::vec4(view.position, 1.0f) : glm::vec4(view.towardsViewer, 0.0f);
     environment.describe(settings, block);
-    setLights(scene, block);
+    setPunctualLights(scene, block);
     const int side = std::max(1, kTileSide / settings.samplesPerSide);
     for (int y = 0; y < settings.height; y += side) {
         for (int x = 0; x < settings.width; x += side) {
@@ -415,7 +242,7 @@ core::Result<Frame> Renderer::State::drawFrame(const View& view, const RenderSet
     if (!prepared) {
         return prepared.error();
     }
-    auto compiled = timed("compile", [&] { return compilePrograms(frame.plan, settings); });
+    auto compiled = timed("compile", [&] { return programs.compile(frame.plan, settings); });
     if (!compiled) {
         return compiled.error();
     }

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "scene/programs.h"
+
+#include <string>
+#include <utility>
+
+#include "scene/gpu_scene.h"
+
+namespace lodestar::scene {
+namespace {
+
+using lighting::EstimatorKind;
+
+int specularMacro(EstimatorKind kind) {
+    switch (kind) {
+    case EstimatorKind::Mip:
+        return 0;
+    case EstimatorKind::MipFloor:
+        return 1;
+    case EstimatorKind::Bias:
+    case EstimatorKind::BiasVertex:
+        return 2;
+    default:
+        return 3;
+    }
+}
+
+int diffuseMacro(EstimatorKind kind) {
+    switch (kind) {
+    case EstimatorKind::Sh9:
+        return 1;
+    case EstimatorKind::LowestMip:
+        return 2;
+    case EstimatorKind::Bias:
+    case EstimatorKind::BiasVertex:
+        return 3;
+    default:
+        return 0;
+    }
+}
+
+gl::Defines definesFor(plan::Features features, const RenderSettings& settings) {
+    using plan::Feature;
+    gl::Defines defines;
+    const std::pair<const char*, Feature> macros[] = {
+        {"LODESTAR_NORMALS", Feature::Normals},
+        {"LODESTAR_TANGENTS", Feature::Tangents},
+        {"LODESTAR_VERTEX_COLORS", Feature::VertexColors},
+        {"LODESTAR_BASE_COLOR_TEXTURE", Feature::BaseColorTexture},
+        {"LODESTAR_METALLIC_ROUGHNESS_TEXTURE", Feature::MetallicRoughnessTexture},
+        {"LODESTAR_NORMAL_TEXTURE", Feature::NormalTexture},
+        {"LODESTAR_OCCLUSION_TEXTURE", Feature::OcclusionTexture},
+        {"LODESTAR_EMISSIVE_TEXTURE", Feature::EmissiveTexture},
+        {"LODESTAR_BLINN_PHONG", Feature::BlinnPhong},
+        {"LODESTAR_EXPONENT_TEXTURE", Feature::ExponentTexture},
+        {"LODESTAR_ALPHA_MASK", Feature::AlphaMask},
+        {"LODESTAR_ALPHA_BLEND", Feature::AlphaBlend},
+        {"LODESTAR_PUNCTUAL_LIGHTS", Feature::PunctualLights},
+        {"LODESTAR_ENVIRONMENT", Feature::Environment},
+        {"LODESTAR_TEXTURE_TRANSFORM", Feature::TextureTransform},
+        {"LODESTAR_UNLIT", Feature::Unlit},
+        {"LODESTAR_SPECULAR_TEXTURE", Feature::SpecularTexture},
+        {"LODESTAR_SPECULAR_COLOR_TEXTURE", Feature::SpecularColorTexture},
+        {"LODESTAR_SKINNING", Feature::Skinning},
+        {"LODESTAR_SECOND_JOINTS", Feature::SecondJoints},
+    };
+    for (const auto& [name, feature] : macros) {
+        defines.emplace_back(name, plan::has(features, feature) ? "1" : "0");
+    }
+    defines.emplace_back("LODESTAR_SPECULAR",
+                         std::to_string(specularMacro(settings.specular.kind)));
+    defines.emplace_back("LODESTAR_DIFFUSE", std::to_string(diffuseMacro(settings.diffuse.kind)));
+    defines.emplace_back("LODESTAR_BIAS_VERTEX",
+                         settings.specular.kind == EstimatorKind::BiasVertex ? "1" : "0");
+    return defines;
+}
+
+} // namespace
+
+core::Result<void> Programs::compileMesh(const gl::Defines& defines) {
+    if (meshes_.count(defines) > 0) {
+        return {};
+    }
+    auto made = gl::Program::make(*device_, "host/mesh.vert", "host/mesh.frag", defines);
+    if (!made) {
+        return made.error();
+    }
+    for (std::size_t unit = 0; unit < kSamplerNames.size(); ++unit) {
+        made->setSampler(kSamplerNames[unit], static_cast<int>(unit));
+    }
+    made->setBlock("LodestarFrame", kFrameBinding);
+    made->setBlock("LodestarDraw", kDrawBinding);
+    made->setBlock("LodestarMaterial", kMaterialBinding);
+    meshes_.emplace(defines, std::move(*made));
+    return {};
+}
+
+core::Result<void> Programs::compile(const plan::EffectPlan& plan, const RenderSettings& settings) {
+    for (plan::Features features : plan.drawFeatures) {
+        if (auto made = compileMesh(definesFor(features, settings)); !made) {
+            return made;
+        }
+    }
+    if (plan.backdrop && !backdrop_) {
+        auto made = gl::Program::make(*device_, "host/backdrop.vert", "host/backdrop.frag", {});
+        if (!made) {
+            return made.error();
+        }
+        backdrop_ = std::move(*made);
+        backdrop_.setSampler("uEnvironment", kEnvironmentUnit);
+        backdrop_.setBlock("LodestarFrame", kFrameBinding);
+    }
+    return {};
+}
+
+const gl::Program& Programs::mesh(plan::Features features, const RenderSettings& settings) const {
+    return meshes_.at(definesFor(features, settings));
+}
+
+} // namespace lodestar::scene
