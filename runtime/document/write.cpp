@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+//
+// Values to text.
+#include <array>
+#include <cmath>
+
+#include <glm/trigonometric.hpp>
+
+#include "document/document.h"
+#include "document/reader.h"
+
+namespace lodestar::document {
+namespace {
+
+constexpr std::array<const char*, 4> kInterpolations = {"linear", "constant", "smooth", "cubic"};
+constexpr std::array<const char*, 3> kSpaces = {"linear", "oklab", "srgb"};
+
+/// JSON has no NaN and no infinity.
+double finite(double value) {
+    return std::isfinite(value) ? value : 0.0;
+}
+
+/// The degrees of an angle: the whole number that it was read from, where it is one.
+double degrees(double radians) {
+    const double value = finite(glm::degrees(radians));
+    const double whole = std::round(value);
+    return glm::radians(whole) == radians ? whole : value;
+}
+
+Json toJson(const glm::dvec3& v) {
+    return Json::array({finite(v.x), finite(v.y), finite(v.z)});
+}
+
+void addUnknown(Json& object, const Unknown& unknown) {
+    if (unknown.empty()) {
+        return;
+    }
+    const Json rest = Json::parse(unknown, nullptr, false);
+    if (rest.is_object()) {
+        for (const auto& [name, value] : rest.items()) {
+            if (!object.contains(name)) {
+                object[name] = value;
+            }
+        }
+    }
+}
+
+Json toJson(const Gradient& gradient) {
+    Json object;
+    object["interpolation"] = kInterpolations[static_cast<std::size_t>(gradient.interpolation)];
+    object["space"] = kSpaces[static_cast<std::size_t>(gradient.space)];
+    object["stops"] = Json::array();
+    for (const Stop& stop : gradient.stops) {
+        Json each;
+        each["at"] = finite(stop.stop.at);
+        each["color"] = toJson(stop.stop.color);
+        each["ev"] = finite(stop.stop.ev);
+        addUnknown(each, stop.unknown);
+        object["stops"].push_back(std::move(each));
+    }
+    addUnknown(object, gradient.unknown);
+    return object;
+}
+
+Json toJson(const Key& key) {
+    Json object;
+    object["hour"] = finite(key.hour);
+    object["tint"] = toJson(key.tint);
+    if (key.axis) {
+        object["axis"] = toJson(*key.axis);
+    }
+    object["gradient"] = toJson(key.gradient);
+    addUnknown(object, key.unknown);
+    return object;
+}
+
+Json toJson(const Light& light) {
+    Json object;
+    if (!light.name.empty()) {
+        object["name"] = light.name;
+    }
+    object["kind"] = light.kind == lighting::LightKind::Sky ? "sky" : "sun";
+    if (light.axis) {
+        object["axis"] = toJson(*light.axis);
+    }
+    if (light.path) {
+        Json path;
+        path["latitude"] = degrees(light.path->latitude);
+        path["dayOfYear"] = light.path->dayOfYear;
+        path["north"] = toJson(light.path->north);
+        addUnknown(path, light.pathUnknown);
+        object["path"] = std::move(path);
+    }
+    if (!light.visibility) {
+        object["visibility"] = false;
+    }
+    if (light.add) {
+        object["add"] = true;
+    }
+    object["keys"] = Json::array();
+    for (const Key& key : light.keys) {
+        object["keys"].push_back(toJson(key));
+    }
+    addUnknown(object, light.unknown);
+    return object;
+}
+
+Json toJson(const Environment& environment) {
+    Json object;
+    object["source"] = environment.source;
+    object["rotation"] = degrees(environment.rotation);
+    object["ev"] = finite(environment.ev);
+    addUnknown(object, environment.unknown);
+    return object;
+}
+
+Json toJson(const Material& material) {
+    Json object = Json::object();
+    if (material.exponent) {
+        object["exponent"] =
+            std::isinf(*material.exponent) ? Json("mirror") : Json(finite(*material.exponent));
+    }
+    if (material.diffuse) {
+        object["diffuse"] = toJson(*material.diffuse);
+    }
+    if (material.f0) {
+        object["f0"] = toJson(*material.f0);
+    }
+    if (material.specular) {
+        object["specular"] = *material.specular;
+    }
+    if (material.tolerance) {
+        object["tolerance"] = finite(*material.tolerance);
+    }
+    addUnknown(object, material.unknown);
+    return object;
+}
+
+} // namespace
+
+std::string writeDocument(const Document& document) {
+    Json object;
+    object["lodestar"] = kVersion;
+    if (document.environment) {
+        object["environment"] = toJson(*document.environment);
+    }
+    object["lights"] = Json::array();
+    for (const Light& light : document.lights) {
+        object["lights"].push_back(toJson(light));
+    }
+    if (!document.probes.empty()) {
+        object["probes"] = Json::parse(document.probes, nullptr, false);
+    }
+    if (!document.materials.empty()) {
+        object["materials"] = Json::object();
+        for (const auto& [name, material] : document.materials) {
+            object["materials"][name] = toJson(material);
+        }
+    }
+    addUnknown(object, document.unknown);
+    // Texts that are no UTF-8 are replaced, not thrown over.
+    return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace lodestar::document
