@@ -16,10 +16,12 @@
 #include "app/check_scene.h"
 #include "app/command.h"
 #include "app/commands.h"
+#include "io/document_file.h"
 #include "io/environment_file.h"
 #include "io/gltf.h"
 #include "io/image_file.h"
 #include "lighting/mips.h"
+#include "lighting/rsrm_layout.h"
 #include "lodestar/display.glsl"
 
 namespace lodestar::app {
@@ -198,6 +200,48 @@ core::Result<Json> checkImage(const std::string& file, const io::Bytes& bytes) {
     return json;
 }
 
+core::Result<Json> checkDocument(const std::string& file) {
+    core::Tally warnings;
+    const auto document = io::loadDocument(file, warnings);
+    if (!document) {
+        return document.error();
+    }
+    warn(warnings, file);
+    Json json;
+    json["file"] = file;
+    json["kind"] = "lighting";
+    json["environment"] =
+        document->environment ? Json(document->environment->source) : Json(nullptr);
+    json["lights"] = Json::array();
+    for (const document::Light& light : document->lights) {
+        Json hours = Json::array();
+        for (const document::Key& key : light.keys) {
+            hours.push_back(key.hour);
+        }
+        json["lights"].push_back({{"name", light.name},
+                                  {"kind", light.kind == lighting::LightKind::Sky ? "sky" : "sun"},
+                                  {"hours", hours},
+                                  {"path", light.path.has_value()},
+                                  {"mapBytes", lighting::texelBytes(lighting::kRsrm)}});
+    }
+    json["materials"] = Json::array();
+    for (const auto& [name, material] : document->materials) {
+        json["materials"].push_back(name);
+    }
+    json["probes"] = document->probes.empty() ? 0U : Json::parse(document->probes).size();
+    json["warnings"] = warningsJson(warnings);
+    return json;
+}
+
+/// Lighting documents are told by their name, or by a text that says so early on.
+bool looksLikeDocument(const std::string& file, const io::Bytes& bytes) {
+    const std::string start(
+        bytes.begin(),
+        bytes.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(bytes.size(), 4096)));
+    return file.ends_with(".lodestar.json") ||
+           (file.ends_with(".json") && start.find("\"lodestar\"") != std::string::npos);
+}
+
 /// Scenes are GLB or JSON text by their first byte that is not white space; the rest are images.
 bool looksLikeScene(const io::Bytes& bytes) {
     const auto first = std::find_if(bytes.begin(), bytes.end(), [](unsigned char c) {
@@ -214,10 +258,13 @@ bool endsLikeScene(const std::string& file) {
 
 Json checkFile(const std::string& file, std::optional<core::Error>& refusal) {
     core::Result<io::Bytes> bytes = io::readFile(file);
-    if (bytes && (endsLikeScene(file) || looksLikeScene(*bytes))) {
+    const bool document = bytes && looksLikeDocument(file, *bytes);
+    if (bytes && !document && (endsLikeScene(file) || looksLikeScene(*bytes))) {
         return checkScene(file, refusal);
     }
-    core::Result<Json> json = bytes ? checkImage(file, *bytes) : bytes.error();
+    core::Result<Json> json = document ? checkDocument(file)
+                              : bytes  ? checkImage(file, *bytes)
+                                       : bytes.error();
     if (json) {
         return std::move(*json);
     }
@@ -247,9 +294,12 @@ int runCheck(const std::vector<std::string>& files) {
 void addCheck(CLI::App& app, int& status) {
     auto files = std::make_shared<std::vector<std::string>>();
     CLI::App* command =
-        app.add_subcommand("check", "Say what a scene or an image holds, or why it is refused");
+        app.add_subcommand("check", "Say what a scene, an image or a lighting document holds, or\n"
+                                    "why it is refused");
     command
-        ->add_option("FILE", *files, "glTF scenes (.gltf, .glb) and images (EXR, HDR, PNG, JPEG)")
+        ->add_option("FILE", *files,
+                     "glTF scenes (.gltf, .glb), images (EXR, HDR, PNG, JPEG), lighting documents\n"
+                     "(.lodestar.json)")
         ->required();
     command->footer("Example: is this panorama sound?\n"
                     "  lodestar check dusk.hdr");

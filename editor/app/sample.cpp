@@ -76,8 +76,9 @@ core::Result<lighting::Estimator> parseQueryEstimator(const SampleQuery& query,
                                     diffuse ? lighting::Term::Diffuse : lighting::Term::Glossy);
 }
 
-core::Result<lighting::LookupRequest> parseRequest(const SampleQuery& query,
-                                                   core::Tally& warnings) {
+/// All of a request but its estimator.
+core::Result<lighting::LookupRequest> parseLobeRequest(const SampleQuery& query,
+                                                       core::Tally& warnings) {
     lighting::LookupRequest request;
     auto lobe = parseLobe(query.lobe.value_or("phong"));
     if (!lobe) {
@@ -102,11 +103,20 @@ core::Result<lighting::LookupRequest> parseRequest(const SampleQuery& query,
         return direction.error();
     }
     request.direction = *direction;
-    auto estimator = parseQueryEstimator(query, request.lobe);
+    return request;
+}
+
+core::Result<lighting::LookupRequest> parseRequest(const SampleQuery& query,
+                                                   core::Tally& warnings) {
+    auto request = parseLobeRequest(query, warnings);
+    if (!request) {
+        return request;
+    }
+    auto estimator = parseQueryEstimator(query, request->lobe);
     if (!estimator) {
         return estimator.error();
     }
-    request.estimator = *estimator;
+    request->estimator = *estimator;
     return request;
 }
 
@@ -132,8 +142,10 @@ std::optional<std::string> wordsOf(const json& value) {
 }
 
 core::Result<void> setKey(SampleQuery& query, const std::string& key, const json& value) {
-    const std::array<std::pair<const char*, std::optional<std::string>*>, 5> words{{
+    const std::array<std::pair<const char*, std::optional<std::string>*>, 7> words{{
         {"environment", &query.environment},
+        {"lighting", &query.lighting},
+        {"hour", &query.hour},
         {"lobe", &query.lobe},
         {"exponent", &query.exponent},
         {"direction", &query.direction},
@@ -160,6 +172,10 @@ core::Result<void> setKey(SampleQuery& query, const std::string& key, const json
     return {};
 }
 
+std::string sourceOf(const SampleQuery& query) {
+    return query.lighting ? *query.lighting : query.environment.value_or("");
+}
+
 int runBatch(const SampleOptions& options) {
     auto bytes = io::readFile(options.batch);
     if (!bytes) {
@@ -177,7 +193,7 @@ int runBatch(const SampleOptions& options) {
             query ? sampler.answer(*query) : core::Result<Sampler::Answer>(query.error());
         std::string text;
         if (answer) {
-            warn(answer->warnings, query->environment.value_or(""));
+            warn(answer->warnings, sourceOf(*query));
             text = answerJson(answer->lookup);
         } else {
             text = json{{"error", answer.error().message()},
@@ -241,14 +257,44 @@ Sampler::environment(const std::string& text, int width, const lighting::Prepare
     return &made;
 }
 
+core::Result<Sampler::Answer> Sampler::answerLights(const SampleQuery& query) {
+    Answer answer;
+    if (query.environment) {
+        return usage("an environment or a lighting document is asked, not both");
+    }
+    const auto request = parseLobeRequest(query, answer.warnings);
+    if (!request) {
+        return request.error();
+    }
+    LightsQuery lights{*query.lighting,    15.0,
+                       request->lobe,      request->exponent,
+                       request->direction, query.estimator.value_or("")};
+    if (query.hour) {
+        const auto hour = parseNumbers(*query.hour, 1, "hour");
+        if (!hour) {
+            return hour.error();
+        }
+        lights.hour = hour->front();
+    }
+    auto found = lights_.answer(lights, answer.warnings);
+    if (!found) {
+        return found.error();
+    }
+    answer.lookup = *found;
+    return answer;
+}
+
 core::Result<Sampler::Answer> Sampler::answer(const SampleQuery& query) {
+    if (query.lighting) {
+        return answerLights(query);
+    }
     Answer answer;
     auto request = parseRequest(query, answer.warnings);
     if (!request) {
         return request.error();
     }
     if (!query.environment) {
-        return usage("an environment is needed");
+        return usage("an environment or a lighting document is needed");
     }
     auto prepared = environment(*query.environment, query.width.value_or(io::kDefaultCubeWidth),
                                 lighting::partsFor(request->estimator), answer.warnings);
@@ -293,7 +339,7 @@ int runSample(const SampleOptions& options) {
     if (!answer) {
         return fail(answer.error());
     }
-    warn(answer->warnings, options.query.environment.value_or(""));
+    warn(answer->warnings, sourceOf(options.query));
     std::printf("%s\n", answerJson(answer->lookup).c_str());
     return finish(0);
 }
@@ -313,6 +359,9 @@ void addSample(CLI::App& app, int& status) {
         "A panorama, cube cross or strip, six files STEM_{px,nx,py,ny,pz,nz}.EXT, or "
         "constant:R,G,B, gradient:DOWN,UP, disc:X,Y,Z,DEGREES,INSIDE[,OUTSIDE], "
         "faces:R,G,B;... (six)");
+    command->add_option("--lighting", query.lighting,
+                        "Instead: a lighting document, for the sum of its lights at --hour");
+    command->add_option("--hour", query.hour, "Hour of the document's day, [0, 24) (default 15)");
     command->add_option("--lobe", query.lobe,
                         "phong (default), blinn-phong (view = normal = direction) or lambert");
     command->add_option("--exponent", query.exponent,
@@ -327,7 +376,7 @@ void addSample(CLI::App& app, int& status) {
     };
     const std::string names = "How it is looked up: " + list(lighting::Term::Glossy) +
                               " (default tent); for lambert " + list(lighting::Term::Diffuse) +
-                              " (default irradiance)";
+                              " (default irradiance); for a document's lights " + kLightEstimators;
     command->add_option("--estimator", query.estimator, names);
     command->add_option("--width", query.width, "Cube face width in texels (default 256)")
         ->check(CLI::Range(1, kMaxWidth));

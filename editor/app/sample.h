@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "app/sample_lights.h"
 #include "core/result.h"
 #include "core/tally.h"
 #include "lighting/environment.h"
@@ -19,6 +20,8 @@ namespace lodestar::app {
 /// empty.
 struct SampleQuery {
     std::optional<std::string> environment; ///< ENV: a file or an analytic map
+    std::optional<std::string> lighting;    ///< instead: a lighting document, for its lights
+    std::optional<std::string> hour;        ///< of the document's day, default 15
     std::optional<std::string> lobe;        ///< phong (default), blinn-phong or lambert
     std::optional<std::string> exponent;    ///< a number or "inf"; lambert needs none
     std::optional<std::string> direction;   ///< "X,Y,Z", any length but 0
@@ -47,12 +50,16 @@ private:
         lighting::PreparedEnvironment environment;
         lighting::PreparedParts parts;
     };
+    /// What the query asks of a document's lights.
+    [[nodiscard]] core::Result<Answer> answerLights(const SampleQuery& query);
+
     using Key = std::pair<std::string, int>;
 
     [[nodiscard]] core::Result<const lighting::PreparedEnvironment*>
     environment(const std::string& text, int width, const lighting::PreparedParts& parts,
                 core::Tally& warnings);
 
+    LightsSampler lights_;
     std::map<Key, Entry> entries_;
     std::size_t texels_ = 0; ///< base texels held
 };
