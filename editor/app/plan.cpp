@@ -20,9 +20,14 @@ int runPlan(const SceneOptions& options) {
     }
     warn(loaded->light.environment.warnings, loaded->light.name);
     warn(loaded->scene.warnings, options.scene);
-    const plan::PlanInput input =
-        scene::planInput(loaded->scene, loaded->view, loaded->settings,
-                         {loaded->light.name, loaded->light.environment.base.width(), true});
+    warn(loaded->lightWarnings, loaded->lightsName);
+    const plan::PlanInput input = scene::planInput(loaded->scene, loaded->view, loaded->settings,
+                                                   {loaded->light.name,
+                                                    loaded->light.environment.base.width(),
+                                                    true,
+                                                    !loaded->light.environment.base.empty(),
+                                                    {}},
+                                                   loaded->lights);
     std::printf("%s\n", toJson(plan::plan(input)).dump(2).c_str());
     return 0;
 }

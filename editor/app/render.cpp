@@ -64,6 +64,7 @@ nlohmann::json stats(const std::vector<scene::Frame>& frames, const gl::WorkCoun
     }
     core::Tally warnings = loaded.light.environment.warnings;
     warnings.merge(loaded.scene.warnings);
+    warnings.merge(loaded.lightWarnings);
     warnings.add("pixel not finite, set to 0", frames.back().repairedPixels);
     return {{"plan", toJson(frames.back().plan)},
             {"counters", toJson(total)},
@@ -89,7 +90,11 @@ core::Result<void> renderAll(const RenderOptions& options, OutputKind kind, Load
     if (!renderer) {
         return renderer.error();
     }
-    (*renderer)->setEnvironment(loaded.light.name, std::move(loaded.light.environment.base));
+    if (!loaded.light.environment.base.empty()) {
+        (*renderer)->setEnvironment(loaded.light.name, std::move(loaded.light.environment.base));
+    }
+    (*renderer)->setLights(loaded.lights);
+    warn((*renderer)->lightWarnings(), loaded.lightsName);
     std::vector<scene::Frame> frames;
     const bool sequence = options.output.find("%04d") != std::string::npos;
     for (int i = 0; i < options.frames; ++i) {
@@ -145,6 +150,7 @@ int runRender(const RenderOptions& options) {
     }
     warn(loaded->light.environment.warnings, loaded->light.name);
     warn(loaded->scene.warnings, options.scene.scene);
+    warn(loaded->lightWarnings, loaded->lightsName);
     const int samples = options.samples > 0 ? options.samples : (*kind == OutputKind::Png ? 4 : 1);
     loaded->settings.samplesPerSide = static_cast<int>(std::lround(std::sqrt(samples)));
     if (auto rendered = renderAll(options, *kind, *loaded); !rendered) {

@@ -10,13 +10,13 @@
 #include <CLI/CLI.hpp>
 
 #include "app/command.h"
+#include "app/scene_lighting.h"
 #include "io/gltf.h"
 
 namespace lodestar::app {
 namespace {
 
 constexpr int kMaxSide = 16384;
-constexpr const char* kClearSky = "sky";
 
 core::Result<glm::ivec2> parseSize(const std::string& text) {
     int width = 0;
@@ -179,6 +179,13 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
         "constant:R,G,B | gradient:DOWN,UP | disc:X,Y,Z,DEGREES,INSIDE[,OUTSIDE] |\n"
         "faces:C;C;C;C;C;C (C a number or R/G/B). Default: the scene's own\n"
         "EXT_lights_image_based, else a clear sky at 15:00");
+    command.add_option(
+        "--lighting", options.lighting,
+        "A lighting document (default: SCENE-stem.lodestar.json beside the scene, if\n"
+        "there is one). Without --environment its lights are all the light");
+    command
+        .add_option("--hour", options.hour, "Hour of the document's day, local solar time [0, 24)")
+        ->capture_default_str();
     command
         .add_option("--environment-width", options.cubeWidth,
                     "Face width of the environment's cube map, in texels")
@@ -226,28 +233,6 @@ core::Result<OpenedFile> openFile(const SceneOptions& options, std::optional<int
     return OpenedFile{std::move(*file), *index};
 }
 
-core::Result<DistantLight> distantLight(const SceneOptions& options, const OpenedFile& opened) {
-    const std::string& named = options.environment;
-    const int own =
-        opened.sceneIndex == io::kNone
-            ? io::kNone
-            : opened.file.scenes[static_cast<std::size_t>(opened.sceneIndex)].environment;
-    if (named.empty() && own == io::kNone) {
-        DistantLight sky{kClearSky, {}};
-        sky.environment.base =
-            lighting::cubeFromAnalytic(lighting::ClearSkyEnvironment{}, options.cubeWidth);
-        return sky;
-    }
-    auto environment = named.empty() ? io::environmentOf(opened.file, own, options.cubeWidth)
-                                     : io::loadEnvironment(named, options.cubeWidth);
-    if (!environment) {
-        return core::inFile(environment.error(), named.empty() ? options.scene : named);
-    }
-    return DistantLight{
-        named.empty() ? options.scene + " (image-based light " + std::to_string(own) + ")" : named,
-        std::move(*environment)};
-}
-
 core::Result<LoadedScene> load(const SceneOptions& options) {
     LoadedScene loaded;
     auto settings = renderSettings(options);
@@ -263,14 +248,29 @@ core::Result<LoadedScene> load(const SceneOptions& options) {
     if (!opened) {
         return opened.error();
     }
-    auto light = distantLight(options, *opened);
+    auto document = openDocument(options);
+    if (!document) {
+        return document.error();
+    }
+    auto light = distantLight(options, *opened, *document);
     if (!light) {
         return light.error();
     }
     loaded.light = std::move(*light);
+    const auto hour = hourOf(options, loaded.lightWarnings);
+    if (!hour) {
+        return hour.error();
+    }
+    loaded.settings.hour = *hour;
     loaded.sceneIndex = opened->sceneIndex;
     loaded.sceneCount = std::max(1, static_cast<int>(opened->file.scenes.size()));
     loaded.scene = scene::buildScene(std::move(opened->file), opened->sceneIndex);
+    if (*document) {
+        applyMaterials((*document)->document, loaded.scene, loaded.lightWarnings);
+        loaded.lightWarnings.merge((*document)->warnings);
+        loaded.lights = std::move((*document)->lights);
+        loaded.lightsName = (*document)->file;
+    }
     loaded.camera = *request;
     if (options.time && !std::isfinite(*options.time)) {
         return usage("a time is a number of seconds", "--time");

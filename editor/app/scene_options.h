@@ -5,8 +5,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "io/environment_file.h"
+#include "lighting/day.h"
 #include "scene/animation.h"
 #include "scene/camera.h"
 #include "scene/renderer.h"
@@ -23,6 +25,8 @@ struct SceneOptions {
     std::string assetRoot;
     std::string sceneName; ///< a scene of the file, by name or number
     std::string environment;
+    std::string lighting; ///< a lighting document; empty: the one beside the scene, if any
+    double hour = 15.0;
     std::string camera;
     std::string eye, target;
     double fovDegrees = 0.0; ///< 0: not given
@@ -55,10 +59,6 @@ struct DistantLight {
     io::LoadedEnvironment environment;
 };
 
-/// What the options name, else the scene's own, else a clear sky. @errors InputRefused
-[[nodiscard]] core::Result<DistantLight> distantLight(const SceneOptions& options,
-                                                      const OpenedFile& opened);
-
 /// What the words mean, files loaded.
 struct LoadedScene {
     scene::Scene scene;
@@ -67,9 +67,12 @@ struct LoadedScene {
     int sceneCount = 1;         ///< of the file, at least 1
     scene::View view;
     scene::RenderSettings settings;
-    DistantLight light;
-    int animation = scene::kRestPose; ///< that the scene is posed by
-    double time = 0.0;                ///< seconds into it
+    DistantLight light;                     ///< empty where the lights stand in its place
+    std::vector<lighting::DayLight> lights; ///< of the lighting document
+    std::string lightsName;                 ///< its file
+    core::Tally lightWarnings;              ///< of the document and the hour
+    int animation = scene::kRestPose;       ///< that the scene is posed by
+    double time = 0.0;                      ///< seconds into it
 
     /// Poses the scene and looks at it anew, for a camera that moves. @param seconds finite
     [[nodiscard]] core::Result<void> poseAt(double seconds);

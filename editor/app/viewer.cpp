@@ -12,6 +12,7 @@
 #include "app/command.h"
 #include "app/display_image.h"
 #include "app/plan_json.h"
+#include "app/scene_lighting.h"
 #include "io/gltf.h"
 #include "io/image_file.h"
 
@@ -62,6 +63,8 @@ core::Result<std::unique_ptr<Viewer>> Viewer::make(gl::Device& device, LoadedSce
         return document.error();
     }
     viewer->document_ = std::move(*document);
+    warn(loaded.lightWarnings, loaded.lightsName);
+    viewer->document_.renderer->setLights(std::move(loaded.lights));
     viewer->takeLight(std::move(loaded.light));
     viewer->animation_ = loaded.animation;
     viewer->time_ = loaded.time;
@@ -128,9 +131,14 @@ void Viewer::openScene(const std::string& path, std::optional<int> number) {
         say(opened.error().message(), true);
         return;
     }
+    auto lighting = openDocument(wanted);
+    if (!lighting) {
+        say(lighting.error().message(), true);
+        return;
+    }
     std::optional<DistantLight> own;
     if (!lightChosen_) {
-        auto light = distantLight(wanted, *opened);
+        auto light = distantLight(wanted, *opened, *lighting);
         if (!light) {
             say(light.error().message(), true);
             return;
@@ -141,14 +149,20 @@ void Viewer::openScene(const std::string& path, std::optional<int> number) {
     const int count = std::max(1, static_cast<int>(opened->file.scenes.size()));
     scene::Scene built = scene::buildScene(std::move(opened->file), index);
     warn(built.warnings, path);
+    if (*lighting) {
+        core::Tally warnings = (*lighting)->warnings;
+        applyMaterials((*lighting)->document, built, warnings);
+        warn(warnings, (*lighting)->file);
+    }
     auto document = documentOf(path, std::move(built));
     if (!document) {
         say(document.error().message(), true);
         return;
     }
     document_ = std::move(*document);
-    own ? takeLight(std::move(*own))
-        : document_.renderer->setEnvironment(environmentName_, environment_);
+    document_.renderer->setLights(*lighting ? std::move((*lighting)->lights)
+                                            : std::vector<lighting::DayLight>());
+    own ? takeLight(std::move(*own)) : showEnvironment();
     sceneIndex_ = index;
     sceneCount_ = count;
     cameraIndex_ = 0;
@@ -166,7 +180,13 @@ void Viewer::takeLight(DistantLight light) {
     lightWarnings_ = light.environment.warnings;
     environment_ = std::move(light.environment.base);
     environmentName_ = std::move(light.name);
-    document_.renderer->setEnvironment(environmentName_, environment_);
+    showEnvironment();
+}
+
+void Viewer::showEnvironment() {
+    if (!environment_.empty()) {
+        document_.renderer->setEnvironment(environmentName_, environment_);
+    }
 }
 
 void Viewer::openEnvironment(const std::string& path) {

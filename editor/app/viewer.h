@@ -79,6 +79,7 @@ private:
     /// @param number which of its scenes; absent: the file's own choice
     void openScene(const std::string& path, std::optional<int> number);
     void takeLight(DistantLight light);
+    void showEnvironment();
     void openEnvironment(const std::string& path);
     void press(const platform::KeyEvent& event);
     void perform(const KeyBinding& binding);

@@ -69,6 +69,62 @@ void Framebuffer::begin() {
         static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
 }
 
+DepthLayers::DepthLayers(DepthLayers&& other) noexcept {
+    *this = std::move(other);
+}
+
+DepthLayers& DepthLayers::operator=(DepthLayers&& other) noexcept {
+    if (this != &other) {
+        if (id_ != 0) {
+            glDeleteFramebuffers(1, &id_);
+        }
+        device_ = std::exchange(other.device_, nullptr);
+        id_ = std::exchange(other.id_, 0u);
+        side_ = other.side_;
+        depths_ = std::move(other.depths_);
+    }
+    return *this;
+}
+
+DepthLayers::~DepthLayers() {
+    if (id_ != 0) {
+        glDeleteFramebuffers(1, &id_);
+    }
+}
+
+core::Result<DepthLayers> DepthLayers::make(Device& device, int side, int layers) {
+    auto depths = Texture::makeDepthArray(device, side, layers, "shadow maps");
+    if (!depths) {
+        return depths.error();
+    }
+    DepthLayers target;
+    target.device_ = &device;
+    target.side_ = side;
+    target.depths_ = std::move(*depths);
+    glGenFramebuffers(1, &target.id_);
+    glBindFramebuffer(GL_FRAMEBUFFER, target.id_);
+    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, target.depths_.id(), 0, 0);
+    glDrawBuffer(GL_NONE);
+    glReadBuffer(GL_NONE);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+        return core::Error{
+            core::ErrorCode::NoOpenGl, "the driver cannot render to depth alone", {}, {}};
+    }
+    return target;
+}
+
+void DepthLayers::begin(int layer) {
+    glBindFramebuffer(GL_FRAMEBUFFER, id_);
+    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, depths_.id(), 0, layer);
+    glViewport(0, 0, side_, side_);
+    glDepthMask(GL_TRUE);
+    glClearDepth(1.0);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    ++device_->counters().passes;
+    device_->counters().texelsWritten +=
+        static_cast<std::uint64_t>(side_) * static_cast<std::uint64_t>(side_);
+}
+
 void beginWindowPass(Device& device, int x, int y, int width, int height) {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(x, y, width, height);

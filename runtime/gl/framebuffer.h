@@ -36,6 +36,31 @@ private:
     Texture depth_;
 };
 
+/// Depth alone, in layers that a shader compares with. Move-only.
+class DepthLayers {
+public:
+    DepthLayers() = default;
+    DepthLayers(DepthLayers&& other) noexcept;
+    DepthLayers& operator=(DepthLayers&& other) noexcept;
+    ~DepthLayers();
+
+    /// @errors NoOpenGl if the driver has no memory or cannot render to depth alone
+    [[nodiscard]] static core::Result<DepthLayers> make(Device& device, int side, int layers);
+
+    /// Binds a layer with a viewport over all of it, cleared to 1. Counts a pass.
+    void begin(int layer);
+
+    [[nodiscard]] explicit operator bool() const { return id_ != 0; }
+    [[nodiscard]] int side() const { return side_; }
+    [[nodiscard]] const Texture& depths() const { return depths_; }
+
+private:
+    Device* device_ = nullptr;
+    unsigned id_ = 0;
+    int side_ = 0;
+    Texture depths_;
+};
+
 /// Binds the window's own framebuffer, 0, with a viewport from the lower left, not cleared. Counts
 /// a pass.
 void beginWindowPass(Device& device, int x, int y, int width, int height);

@@ -108,6 +108,8 @@ Texture& Texture::operator=(Texture&& other) noexcept {
         id_ = std::exchange(other.id_, 0u);
         target_ = other.target_;
         width_ = other.width_;
+        height_ = other.height_;
+        format_ = other.format_;
         levelCount_ = other.levelCount_;
         scale_ = other.scale_;
         bytes_ = std::exchange(other.bytes_, 0u);
@@ -216,6 +218,100 @@ core::Result<Texture> Texture::makeCube(Device& device, const lighting::Cubemap&
         glTexParameteri(GL_TEXTURE_CUBE_MAP, wrap, GL_CLAMP_TO_EDGE);
     }
     setLabel(device, texture.id_, label);
+    device.counters().textureBytes += texture.bytes_;
+    return texture;
+}
+
+namespace {
+
+struct GlFormat {
+    GLint internal;
+    GLenum type;
+    std::size_t bytes; ///< a texel
+};
+
+GlFormat glFormat(ArrayFormat format) {
+    switch (format) {
+    case ArrayFormat::Rgba8:
+        return {GL_RGBA8, GL_UNSIGNED_BYTE, 4};
+    case ArrayFormat::Rgb10A2:
+        return {GL_RGB10_A2, GL_UNSIGNED_INT_2_10_10_10_REV, 4};
+    case ArrayFormat::Rgba16F:
+        return {GL_RGBA16F, GL_HALF_FLOAT, 8};
+    case ArrayFormat::Rgba32F:
+        break;
+    }
+    return {GL_RGBA32F, GL_FLOAT, 16};
+}
+
+void setArrayState(GLint wrap) {
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, 0);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, wrap);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, wrap);
+}
+
+} // namespace
+
+core::Result<Texture> Texture::makeArray(Device& device, int width, int height, int layers,
+                                         ArrayFormat format, const char* label) {
+    LODESTAR_EXPECT(width > 0 && height > 0 && layers > 0, "an array has texels and layers");
+    const GlFormat gl = glFormat(format);
+    Texture texture(device, GL_TEXTURE_2D_ARRAY);
+    texture.width_ = width;
+    texture.height_ = height;
+    texture.format_ = format;
+    texture.bytes_ = gl.bytes * static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                     static_cast<std::size_t>(layers);
+    const std::vector<std::uint8_t> black(texture.bytes_);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, texture.id_);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, gl.internal, width, height, layers, 0, GL_RGBA, gl.type,
+                 black.data());
+    if (auto allocated = checkAllocation(label); !allocated) {
+        texture.bytes_ = 0;
+        return allocated.error();
+    }
+    setArrayState(GL_CLAMP_TO_EDGE);
+    setLabel(device, texture.id_, label);
+    device.counters().textureBytes += texture.bytes_;
+    return texture;
+}
+
+void Texture::updateLayer(int layer, std::span<const std::uint8_t> texels) {
+    const GlFormat gl = glFormat(format_);
+    const std::size_t count = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+    LODESTAR_EXPECT(target_ == GL_TEXTURE_2D_ARRAY && texels.size() == count * gl.bytes,
+                    "a layer's texels are of the array's size and format");
+    glBindTexture(GL_TEXTURE_2D_ARRAY, id_);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, width_, height_, 1, GL_RGBA, gl.type,
+                    texels.data());
+    ++device_->counters().uploads;
+    device_->counters().uploadBytes += texels.size();
+    device_->counters().texelsWritten += count;
+}
+
+core::Result<Texture> Texture::makeDepthArray(Device& device, int side, int layers,
+                                              const char* label) {
+    Texture texture(device, GL_TEXTURE_2D_ARRAY);
+    texture.width_ = side;
+    texture.height_ = side;
+    glBindTexture(GL_TEXTURE_2D_ARRAY, texture.id_);
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_DEPTH_COMPONENT32F, side, side, layers, 0,
+                 GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
+    if (auto allocated = checkAllocation(label); !allocated) {
+        return allocated.error();
+    }
+    setArrayState(GL_CLAMP_TO_BORDER);
+    constexpr float kFar[4] = {1.0f, 1.0f, 1.0f, 1.0f};
+    glTexParameterfv(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BORDER_COLOR, kFar);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+    setLabel(device, texture.id_, label);
+    texture.bytes_ = 4 * static_cast<std::size_t>(side) * static_cast<std::size_t>(side) *
+                     static_cast<std::size_t>(layers);
     device.counters().textureBytes += texture.bytes_;
     return texture;
 }

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 
 #include "core/image.h"
 #include "core/result.h"
@@ -27,6 +29,14 @@ struct SamplerState {
 /// What 8-bit texels mean.
 enum class TexelEncoding { Linear, Srgb };
 
+/// How the texels of an array lie in memory.
+enum class ArrayFormat {
+    Rgba8,   ///< GL_UNSIGNED_BYTE
+    Rgb10A2, ///< GL_UNSIGNED_INT_2_10_10_10_REV
+    Rgba16F, ///< GL_HALF_FLOAT
+    Rgba32F, ///< GL_FLOAT
+};
+
 class Texture {
 public:
     Texture() = default;
@@ -43,6 +53,16 @@ public:
     /// power-of-two scale where the largest value allows it, else floats: nothing is clamped.
     [[nodiscard]] static core::Result<Texture>
     makeCube(Device& device, const lighting::Cubemap& map, const char* label);
+    /// Layers of one size, filtered linearly within each, clamped at their edges; black until
+    /// `updateLayer`.
+    [[nodiscard]] static core::Result<Texture> makeArray(Device& device, int width, int height,
+                                                         int layers, ArrayFormat format,
+                                                         const char* label);
+    /// Replaces a layer of an array. @pre the bytes are width x height texels of its format
+    void updateLayer(int layer, std::span<const std::uint8_t> texels);
+    /// Layers of depths, read by comparison (GL_LEQUAL) with linear filtering; 1 beyond the edges.
+    [[nodiscard]] static core::Result<Texture> makeDepthArray(Device& device, int side, int layers,
+                                                              const char* label);
     /// A float colour target and a depth target, one level, not filtered.
     [[nodiscard]] static core::Result<Texture> makeColorTarget(Device& device, int width,
                                                                int height);
@@ -71,6 +91,8 @@ private:
     unsigned id_ = 0;
     unsigned target_ = 0;
     int width_ = 0;
+    int height_ = 0; ///< of an array, as its format
+    ArrayFormat format_ = ArrayFormat::Rgba8;
     int levelCount_ = 1;
     float scale_ = 1.0f;
     std::size_t bytes_ = 0;

@@ -33,31 +33,6 @@ core::Image radianceOf(const core::Image& stored, float intensity) {
     return face;
 }
 
-lighting::Cubemap turned(const lighting::Cubemap& cube, const glm::quat& worldFromEnvironment) {
-    const glm::quat environmentFromWorld = glm::conjugate(worldFromEnvironment);
-    const int width = cube.width();
-    lighting::Cubemap result(width);
-    const auto place = [&](int texel, int part) {
-        return (static_cast<float>(texel) + (static_cast<float>(part) + 0.5f) / kLookups) /
-                   static_cast<float>(width) * 2.0f -
-               1.0f;
-    };
-    for (int face = 0; face < 6; ++face) {
-        for (int y = 0; y < width; ++y) {
-            for (int x = 0; x < width; ++x) {
-                glm::vec4 sum(0.0f);
-                for (int k = 0; k < kLookups * kLookups; ++k) {
-                    const glm::vec3 world = shader::lodestar_cubeDirection(
-                        face, place(x, k % kLookups), place(y, k / kLookups));
-                    sum += cube.sampleLevel(environmentFromWorld * world, 0);
-                }
-                result.texel(face, x, y) = sum / static_cast<float>(kLookups * kLookups);
-            }
-        }
-    }
-    return result;
-}
-
 const char* const kLights = "/extensions/EXT_lights_image_based/lights";
 
 /// @pre the file has the faces' images
@@ -98,6 +73,31 @@ void detail::checkEnvironmentFaces(GltfContext& context) {
             context.problems.refuse(good.error());
         }
     }
+}
+
+lighting::Cubemap turned(const lighting::Cubemap& cube, const glm::quat& worldFromEnvironment) {
+    const glm::quat environmentFromWorld = glm::conjugate(worldFromEnvironment);
+    const int width = cube.width();
+    lighting::Cubemap result(width);
+    const auto place = [&](int texel, int part) {
+        return (static_cast<float>(texel) + (static_cast<float>(part) + 0.5f) / kLookups) /
+                   static_cast<float>(width) * 2.0f -
+               1.0f;
+    };
+    for (int face = 0; face < 6; ++face) {
+        for (int y = 0; y < width; ++y) {
+            for (int x = 0; x < width; ++x) {
+                glm::vec4 sum(0.0f);
+                for (int k = 0; k < kLookups * kLookups; ++k) {
+                    const glm::vec3 world = shader::lodestar_cubeDirection(
+                        face, place(x, k % kLookups), place(y, k / kLookups));
+                    sum += cube.sampleLevel(environmentFromWorld * world, 0);
+                }
+                result.texel(face, x, y) = sum / static_cast<float>(kLookups * kLookups);
+            }
+        }
+    }
+    return result;
 }
 
 core::Result<LoadedEnvironment> environmentOf(const GltfFile& file, int environment, int width) {

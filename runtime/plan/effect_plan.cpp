@@ -11,7 +11,7 @@ namespace {
 
 using lighting::PreparedParts;
 
-constexpr std::array<const char*, 20> kFeatureNames = {"normals",
+constexpr std::array<const char*, 22> kFeatureNames = {"normals",
                                                        "tangents",
                                                        "vertex-colors",
                                                        "base-color-texture",
@@ -30,7 +30,9 @@ constexpr std::array<const char*, 20> kFeatureNames = {"normals",
                                                        "specular-texture",
                                                        "specular-color-texture",
                                                        "skinning",
-                                                       "second-joints"};
+                                                       "second-joints",
+                                                       "rsrm-lights",
+                                                       "shadows"};
 
 /// Texels of a whole chain of six faces.
 std::uint64_t chainTexels(int width) {
@@ -90,6 +92,12 @@ Effect decidePart(const PlanInput& input, const Part& part, bool wanted,
     return effect;
 }
 
+std::string absence(const EnvironmentView& environment) {
+    return environment.replacedBy.empty()
+               ? "there is no environment"
+               : "the sky light '" + environment.replacedBy + "' stands in its place";
+}
+
 void planEnvironment(const PlanInput& input, const Receivers& receivers, EffectPlan& result) {
     const PreparedParts forSpecular = lighting::partsFor(input.specular);
     const PreparedParts forDiffuse = lighting::partsFor(input.diffuse);
@@ -107,18 +115,20 @@ void planEnvironment(const PlanInput& input, const Receivers& receivers, EffectP
         {"sh9", &PreparedParts::sh9, 0, {}},
     }};
     for (Part part : parts) {
-        const bool glossy = receivers.glossy && forSpecular.*part.member;
-        const bool lambert = receivers.diffuse && forDiffuse.*part.member;
+        const bool present = input.environment.present;
+        const bool glossy = present && receivers.glossy && forSpecular.*part.member;
+        const bool lambert = present && receivers.diffuse && forDiffuse.*part.member;
         // The backdrop reads level 0 of whichever chain there is; it asks for one only alone.
-        const bool backdropOnly = part.member == &PreparedParts::tentMips && input.backdrop &&
-                                  !(receivers.glossy && forSpecular.boxMips);
+        const bool backdropOnly = present && part.member == &PreparedParts::tentMips &&
+                                  input.backdrop && !(receivers.glossy && forSpecular.boxMips);
         if (glossy || lambert) {
             part.askedBecause = glossy ? specular : diffuse;
         } else if (backdropOnly) {
             part.askedBecause = "the backdrop shows it";
         }
         const bool estimated = forSpecular.*part.member || forDiffuse.*part.member;
-        const std::string unwanted = !estimated       ? "no chosen estimator reads it"
+        const std::string unwanted = !present         ? absence(input.environment)
+                                     : !estimated     ? "no chosen estimator reads it"
                                      : !receivers.any ? "nothing is visible"
                                      : !receivers.lit ? "all that is visible is unlit"
                                                       : "no visible surface reflects that way";
@@ -127,13 +137,84 @@ void planEnvironment(const PlanInput& input, const Receivers& receivers, EffectP
     }
 }
 
+Effect blendEffect(const PlanInput& input, const Receivers& receivers, const RsrmLightView& light) {
+    Effect effect{"rsrm-blend", light.subject, Decision::Skip, {}, {}};
+    if (!light.shines) {
+        effect.reason = "the sun is below the horizon";
+    } else if (!receivers.lit && !input.backdrop) {
+        effect.reason = receivers.any ? "all that is visible is unlit" : "nothing is visible";
+    } else if (!light.changed) {
+        effect.reason = "its keys are blended as in an earlier frame";
+    } else {
+        effect.decision = Decision::Run;
+        effect.reason = receivers.lit ? "visible surfaces receive it, and its keys blend anew"
+                                      : "the backdrop shows it, and its keys blend anew";
+        effect.cost.texelsWritten = light.texels;
+        effect.cost.uploadBytes = light.uploadBytes;
+    }
+    return effect;
+}
+
+Effect shadowEffect(const PlanInput& input, const Receivers& receivers, const RsrmLightView& light,
+                    std::size_t casters) {
+    Effect effect{"shadow-map", light.subject, Decision::Skip, {}, {}};
+    if (!light.shines) {
+        effect.reason = "the sun is below the horizon";
+    } else if (!receivers.lit) {
+        effect.reason = receivers.any ? "all that is visible is unlit" : "nothing is visible";
+    } else if (casters == 0) {
+        effect.reason = "nothing casts a shadow";
+    } else if (!light.shadowChanged) {
+        effect.reason = "neither the sun nor a caster has moved since it was drawn";
+    } else {
+        effect.decision = Decision::Run;
+        effect.reason = "visible surfaces receive the sun, and it or a caster has moved";
+        effect.cost = {casters, 1, input.shadowTexels, 0};
+    }
+    return effect;
+}
+
+/// Skies and suns: blended when their hour asks for it; suns that are up are hidden by casters.
+void planRsrmLights(const PlanInput& input, const Receivers& receivers, EffectPlan& result) {
+    std::vector<std::size_t> casters;
+    for (std::size_t i = 0; i < input.draws.size(); ++i) {
+        if (input.draws[i].casts) {
+            casters.push_back(i);
+        }
+    }
+    for (std::size_t i = 0; i < input.rsrmLights.size(); ++i) {
+        const RsrmLightView& light = input.rsrmLights[i];
+        LitLight lit{i, false, -1, false};
+        Effect blend = blendEffect(input, receivers, light);
+        lit.blend = blend.decision == Decision::Run;
+        result.effects.push_back(std::move(blend));
+        if (light.shadow >= 0) {
+            Effect shadow = shadowEffect(input, receivers, light, casters.size());
+            lit.drawShadow = shadow.decision == Decision::Run;
+            lit.shadow = receivers.lit && !casters.empty() ? light.shadow : -1;
+            result.effects.push_back(std::move(shadow));
+        }
+        if (lit.drawShadow) {
+            result.casters = casters;
+        }
+        if (light.shines && (receivers.lit || input.backdrop)) {
+            result.rsrmLights.push_back(lit);
+        }
+    }
+}
+
 /// Joints and morphed vertices: asked for by what is visible, made when they changed.
 void planDeformation(const PlanInput& input, EffectPlan& result) {
     std::size_t skinned = 0, morphed = 0, changed = 0;
     std::uint64_t morphBytes = 0;
-    for (const DrawView& draw : input.draws) {
-        const bool morphs = draw.visible && draw.morphBytes > 0;
-        skinned += draw.visible && has(draw.features, Feature::Skinning) ? 1U : 0U;
+    for (std::size_t i = 0; i < input.draws.size(); ++i) {
+        const DrawView& draw = input.draws[i];
+        const bool needed = draw.visible || (draw.casts && !result.casters.empty());
+        if (needed) {
+            result.deformed.push_back(i);
+        }
+        const bool morphs = needed && draw.morphBytes > 0;
+        skinned += needed && has(draw.features, Feature::Skinning) ? 1U : 0U;
         morphed += morphs ? 1U : 0U;
         changed += morphs && draw.weightsChanged ? 1U : 0U;
         morphBytes += morphs && draw.weightsChanged ? draw.morphBytes : 0U;
@@ -162,6 +243,16 @@ void planDeformation(const PlanInput& input, EffectPlan& result) {
     result.effects.push_back(std::move(morphs));
 }
 
+/// What every lit draw's shader reads.
+Features lightFeatures(const PlanInput& input, const EffectPlan& result) {
+    Features features = input.environment.present ? bit(Feature::Environment) : 0u;
+    features |= result.rsrmLights.empty() ? 0u : bit(Feature::RsrmLights);
+    for (const LitLight& lit : result.rsrmLights) {
+        features |= lit.shadow >= 0 ? bit(Feature::Shadows) : 0u;
+    }
+    return features;
+}
+
 void planDraws(const PlanInput& input, EffectPlan& result) {
     std::vector<std::size_t> blended;
     for (std::size_t i = 0; i < input.draws.size(); ++i) {
@@ -186,12 +277,31 @@ void planDraws(const PlanInput& input, EffectPlan& result) {
     result.drawOrder.insert(result.drawOrder.end(), blended.begin(), blended.end());
     for (std::size_t index : result.drawOrder) {
         const bool lit = input.draws[index].lit;
-        Features features = input.draws[index].features | (lit ? bit(Feature::Environment) : 0u);
+        Features features = input.draws[index].features | (lit ? lightFeatures(input, result) : 0u);
         if (lit && input.lightCount > 0) {
             features |= bit(Feature::PunctualLights);
         }
         result.drawFeatures.push_back(features);
     }
+}
+
+/// The environment, the lights' gradients, or both; nothing is drawn where there is neither.
+void planBackdrop(const PlanInput& input, EffectPlan& result) {
+    const bool cube = input.environment.present;
+    const bool lights = !result.rsrmLights.empty();
+    result.backdrop = input.backdrop && (cube || lights);
+    result.backdropFeatures =
+        (cube ? bit(Feature::Environment) : 0u) | (lights ? bit(Feature::RsrmLights) : 0u);
+    const char* reason = !input.backdrop  ? "switched off"
+                         : cube && lights ? "the environment and the lights are the background"
+                         : cube           ? "the environment is the background"
+                         : lights         ? "the lights are the background"
+                                          : "no light shines";
+    result.effects.push_back({"backdrop",
+                              cube ? input.environment.source : "lights",
+                              result.backdrop ? Decision::Run : Decision::Skip,
+                              reason,
+                              {result.backdrop ? 1u : 0u, 0, 0, 0}});
 }
 
 } // namespace
@@ -216,6 +326,7 @@ EffectPlan plan(const PlanInput& input) {
     EffectPlan result;
     const Receivers receivers = visibleReceivers(input);
     planEnvironment(input, receivers, result);
+    planRsrmLights(input, receivers, result);
     planDeformation(input, result);
     planDraws(input, result);
     result.effects.push_back(
@@ -227,12 +338,7 @@ EffectPlan plan(const PlanInput& input) {
          : receivers.any       ? "all that is visible is unlit"
                                : "nothing is visible",
          {}});
-    result.backdrop = input.backdrop;
-    result.effects.push_back({"backdrop",
-                              input.environment.source,
-                              input.backdrop ? Decision::Run : Decision::Skip,
-                              input.backdrop ? "the environment is the background" : "switched off",
-                              {input.backdrop ? 1u : 0u, 0, 0, 0}});
+    planBackdrop(input, result);
     return result;
 }
 

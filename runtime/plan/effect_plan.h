@@ -35,6 +35,8 @@ enum class Feature : std::uint32_t {
     SpecularColorTexture = 1u << 17, ///< the same by colour
     Skinning = 1u << 18,             ///< four joints a vertex
     SecondJoints = 1u << 19,         ///< four more
+    RsrmLights = 1u << 20,           ///< skies and suns as radially symmetric maps
+    Shadows = 1u << 21,              ///< some sun is hidden by what stands before it
 };
 
 using Features = std::uint32_t;
@@ -57,6 +59,7 @@ struct DrawView {
     bool glossy = true;  ///< reflects glossily anywhere
     bool lit = true;     ///< takes light at all; false for unlit materials
     bool blended = false;
+    bool casts = true;     ///< a shadow: triangles that are not blended
     float distance = 0.0f; ///< metres along the view, for the order of blended draws
     int indexCount = 0;
     std::uint64_t morphBytes = 0; ///< of its vertices with morph targets added; 0: it has none
@@ -64,9 +67,22 @@ struct DrawView {
 };
 
 struct EnvironmentView {
-    std::string source;  ///< as the user named it
-    int width = 256;     ///< face width, texels
-    bool changed = true; ///< since the previous plan
+    std::string source;       ///< as the user named it
+    int width = 256;          ///< face width, texels
+    bool changed = true;      ///< since the previous plan
+    bool present = true;      ///< false: there is none, or a sky light stands in its place
+    std::string replacedBy{}; ///< the sky light; empty: there is none
+};
+
+/// A sky or a sun as the planner sees it at the frame's hour.
+struct RsrmLightView {
+    std::string subject;
+    bool shines = true;            ///< false for a sun below the horizon
+    bool changed = true;           ///< its blend of keys, since it was uploaded
+    std::uint64_t texels = 0;      ///< of its map and gradient
+    std::uint64_t uploadBytes = 0; ///< of the same
+    int shadow = -1;               ///< its layer of the shadow maps; -1: it casts none
+    bool shadowChanged = true;     ///< it or a caster moved since that was drawn
 };
 
 /// Everything the plan depends on.
@@ -74,6 +90,8 @@ struct PlanInput {
     std::vector<DrawView> draws;
     EnvironmentView environment;
     int lightCount = 0;
+    std::vector<RsrmLightView> rsrmLights;
+    std::uint64_t shadowTexels = 0; ///< of one shadow map
     lighting::Estimator specular = lighting::kDefaultSpecular;
     lighting::Estimator diffuse = lighting::kDefaultDiffuse;
     bool jointsMoved = true;      ///< since they were last uploaded
@@ -101,13 +119,26 @@ struct Effect {
     Cost cost;
 };
 
+/// A sky or a sun that a frame is lit by.
+struct LitLight {
+    std::size_t light = 0;   ///< into PlanInput::rsrmLights
+    bool blend = false;      ///< its map is made and uploaded in this frame
+    int shadow = -1;         ///< layer of its shadow map; -1: nothing is hidden from it
+    bool drawShadow = false; ///< that is drawn in this frame
+};
+
 struct EffectPlan {
     std::vector<Effect> effects;
     lighting::PreparedParts prepare; ///< parts to make now
     std::vector<std::size_t>
         drawOrder; ///< indices into PlanInput::draws: opaque, then blended back to front
     std::vector<Features> drawFeatures; ///< shader features, in drawOrder's order
+    std::vector<LitLight> rsrmLights;
+    std::vector<std::size_t> casters; ///< indices into PlanInput::draws, of every map drawn
+    /// Draws whose joints and morphs must be up to date: those drawn, and the casters.
+    std::vector<std::size_t> deformed;
     bool backdrop = false;
+    Features backdropFeatures = 0;
 
     /// Whether an effect of this name runs.
     [[nodiscard]] bool runs(const std::string& effect) const;

@@ -80,6 +80,8 @@ plan::DrawView drawView(const Scene& scene, const DrawItem& item, const View& vi
     }
     setTerms(draw, materialOf(scene, primitive), settings);
     draw.lit = !plan::has(draw.features, Feature::Unlit);
+    draw.casts = primitive.topology == io::Topology::Triangles &&
+                 !plan::has(draw.features, Feature::AlphaBlend);
     return draw;
 }
 

@@ -157,7 +157,7 @@ void GpuDeformation::prepare(gl::Device& device, const Scene& scene,
         }
         uploadedJoints_ = joints_;
     }
-    for (const std::size_t index : plan.drawOrder) {
+    for (const std::size_t index : plan.deformed) {
         if (!morphs_[index]) {
             continue;
         }

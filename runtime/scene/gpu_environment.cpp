@@ -8,7 +8,7 @@ namespace lodestar::scene {
 using lighting::EstimatorKind;
 
 plan::EnvironmentView GpuEnvironment::view() const {
-    return {source_, base_.width(), prepared_ == lighting::PreparedParts{}};
+    return {source_, base_.width(), prepared_ == lighting::PreparedParts{}, !empty(), {}};
 }
 
 core::Result<void> GpuEnvironment::prepare(gl::Device& device,

@@ -44,20 +44,20 @@ enum TextureUnit : int {
     kEnvironmentUnit = kMaterialUnitCount,
     kIrradianceUnit,
     kJointUnit,
+    kRsrmMapUnit,
+    kRsrmGradientUnit,
+    kShadowUnit,
 };
 
 /// The names of the samplers, by unit.
-inline constexpr std::array<const char*, 11> kSamplerNames = {"uBaseColorTexture",
-                                                              "uMetallicRoughnessTexture",
-                                                              "uNormalTexture",
-                                                              "uOcclusionTexture",
-                                                              "uEmissiveTexture",
-                                                              "uExponentTexture",
-                                                              "uSpecularTexture",
-                                                              "uSpecularColorTexture",
-                                                              "uEnvironment",
-                                                              "uIrradiance",
-                                                              "uJoints"};
+inline constexpr std::array<const char*, 14> kSamplerNames = {
+    "uBaseColorTexture", "uMetallicRoughnessTexture",
+    "uNormalTexture",    "uOcclusionTexture",
+    "uEmissiveTexture",  "uExponentTexture",
+    "uSpecularTexture",  "uSpecularColorTexture",
+    "uEnvironment",      "uIrradiance",
+    "uJoints",           "uRsrmMaps",
+    "uRsrmGradients",    "uShadows"};
 
 class GpuScene {
 public:

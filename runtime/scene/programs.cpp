@@ -63,6 +63,8 @@ gl::Defines definesFor(plan::Features features, const RenderSettings& settings) 
         {"LODESTAR_SPECULAR_COLOR_TEXTURE", Feature::SpecularColorTexture},
         {"LODESTAR_SKINNING", Feature::Skinning},
         {"LODESTAR_SECOND_JOINTS", Feature::SecondJoints},
+        {"LODESTAR_RSRM_LIGHTS", Feature::RsrmLights},
+        {"LODESTAR_SHADOWS", Feature::Shadows},
     };
     for (const auto& [name, feature] : macros) {
         defines.emplace_back(name, plan::has(features, feature) ? "1" : "0");
@@ -75,13 +77,34 @@ gl::Defines definesFor(plan::Features features, const RenderSettings& settings) 
     return defines;
 }
 
+/// What of a draw's features its depth depends on.
+plan::Features depthFeatures(plan::Features features) {
+    using plan::bit;
+    using plan::Feature;
+    plan::Features kept = bit(Feature::Skinning) | bit(Feature::SecondJoints);
+    if (plan::has(features, Feature::AlphaMask)) {
+        kept |= bit(Feature::AlphaMask) | bit(Feature::VertexColors) |
+                bit(Feature::BaseColorTexture) | bit(Feature::TextureTransform);
+    }
+    return features & kept;
+}
+
+gl::Defines backdropDefines(plan::Features features) {
+    const auto value = [&](plan::Feature feature) {
+        return plan::has(features, feature) ? "1" : "0";
+    };
+    return {{"LODESTAR_ENVIRONMENT", value(plan::Feature::Environment)},
+            {"LODESTAR_RSRM_LIGHTS", value(plan::Feature::RsrmLights)}};
+}
+
 } // namespace
 
-core::Result<void> Programs::compileMesh(const gl::Defines& defines) {
-    if (meshes_.count(defines) > 0) {
+core::Result<void> Programs::add(Variants& variants, const char* vertexFile,
+                                 const char* fragmentFile, const gl::Defines& defines) {
+    if (variants.count(defines) > 0) {
         return {};
     }
-    auto made = gl::Program::make(*device_, "host/mesh.vert", "host/mesh.frag", defines);
+    auto made = gl::Program::make(*device_, vertexFile, fragmentFile, defines);
     if (!made) {
         return made.error();
     }
@@ -91,30 +114,45 @@ core::Result<void> Programs::compileMesh(const gl::Defines& defines) {
     made->setBlock("LodestarFrame", kFrameBinding);
     made->setBlock("LodestarDraw", kDrawBinding);
     made->setBlock("LodestarMaterial", kMaterialBinding);
-    meshes_.emplace(defines, std::move(*made));
+    made->setBlock("LodestarRsrmLights", kRsrmBinding);
+    variants.emplace(defines, std::move(*made));
     return {};
 }
 
-core::Result<void> Programs::compile(const plan::EffectPlan& plan, const RenderSettings& settings) {
-    for (plan::Features features : plan.drawFeatures) {
-        if (auto made = compileMesh(definesFor(features, settings)); !made) {
+core::Result<void> Programs::compile(const plan::PlanInput& input, const plan::EffectPlan& plan,
+                                     const RenderSettings& settings) {
+    for (const plan::Features features : plan.drawFeatures) {
+        if (auto made =
+                add(meshes_, "host/mesh.vert", "host/mesh.frag", definesFor(features, settings));
+            !made) {
             return made;
         }
     }
-    if (plan.backdrop && !backdrop_) {
-        auto made = gl::Program::make(*device_, "host/backdrop.vert", "host/backdrop.frag", {});
-        if (!made) {
-            return made.error();
+    for (const std::size_t caster : plan.casters) {
+        const plan::Features features = depthFeatures(input.draws[caster].features);
+        if (auto made =
+                add(depths_, "host/mesh.vert", "host/depth.frag", definesFor(features, settings));
+            !made) {
+            return made;
         }
-        backdrop_ = std::move(*made);
-        backdrop_.setSampler("uEnvironment", kEnvironmentUnit);
-        backdrop_.setBlock("LodestarFrame", kFrameBinding);
+    }
+    if (plan.backdrop) {
+        return add(backdrops_, "host/backdrop.vert", "host/backdrop.frag",
+                   backdropDefines(plan.backdropFeatures));
     }
     return {};
 }
 
 const gl::Program& Programs::mesh(plan::Features features, const RenderSettings& settings) const {
     return meshes_.at(definesFor(features, settings));
+}
+
+const gl::Program& Programs::depth(plan::Features features, const RenderSettings& settings) const {
+    return depths_.at(definesFor(depthFeatures(features), settings));
+}
+
+const gl::Program& Programs::backdrop(plan::Features features) const {
+    return backdrops_.at(backdropDefines(features));
 }
 
 } // namespace lodestar::scene

@@ -12,7 +12,7 @@
 namespace lodestar::scene {
 
 /// Binding points of the uniform blocks, shared by all programs.
-enum BlockBinding : unsigned { kFrameBinding, kDrawBinding, kMaterialBinding };
+enum BlockBinding : unsigned { kFrameBinding, kDrawBinding, kMaterialBinding, kRsrmBinding };
 
 class Programs {
 public:
@@ -20,20 +20,26 @@ public:
 
     /// Compiles what a plan's draws and backdrop need and is not there yet.
     /// @errors Internal: a shader that the driver refuses
-    [[nodiscard]] core::Result<void> compile(const plan::EffectPlan& plan,
+    /// @param input that the plan was made from
+    [[nodiscard]] core::Result<void> compile(const plan::PlanInput& input,
+                                             const plan::EffectPlan& plan,
                                              const RenderSettings& settings);
 
     /// @pre compiled
     [[nodiscard]] const gl::Program& mesh(plan::Features features,
                                           const RenderSettings& settings) const;
-    [[nodiscard]] const gl::Program& backdrop() const { return backdrop_; }
+    [[nodiscard]] const gl::Program& backdrop(plan::Features features) const;
+    /// Depth alone, of a caster with these features.
+    [[nodiscard]] const gl::Program& depth(plan::Features features,
+                                           const RenderSettings& settings) const;
 
 private:
-    [[nodiscard]] core::Result<void> compileMesh(const gl::Defines& defines);
+    using Variants = std::map<gl::Defines, gl::Program>;
+    [[nodiscard]] core::Result<void> add(Variants& variants, const char* vertexFile,
+                                         const char* fragmentFile, const gl::Defines& defines);
 
     gl::Device* device_;
-    std::map<gl::Defines, gl::Program> meshes_;
-    gl::Program backdrop_;
+    Variants meshes_, depths_, backdrops_;
 };
 
 } // namespace lodestar::scene

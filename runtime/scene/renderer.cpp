@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <span>
 
@@ -14,9 +15,11 @@
 #include "scene/frame_parts.h"
 #include "scene/gpu_deformation.h"
 #include "scene/gpu_environment.h"
+#include "scene/gpu_lights.h"
 #include "scene/gpu_scene.h"
 #include "scene/presenter.h"
 #include "scene/programs.h"
+#include "scene/shadow_maps.h"
 
 namespace lodestar::scene {
 namespace {
@@ -50,12 +53,14 @@ struct Renderer::State {
     GpuDeformation deformation;
     gl::VertexArray fullScreen;
     gl::Timer timer;
-    gl::Buffer frameBuffer, drawBuffer, materialBuffer;
+    gl::Buffer frameBuffer, drawBuffer, materialBuffer, lightBuffer;
     gl::Framebuffer target;
     Programs programs;
     std::optional<Presenter> presenter;
 
     GpuEnvironment environment;
+    GpuLights lights;
+    ShadowMaps shadows;
 
     /// What becomes of a tile that `target` holds: x, y, width, height in pixels from the top left.
     using TileSink = std::function<void(const glm::ivec4&)>;
@@ -66,13 +71,17 @@ struct Renderer::State {
                                    const TileSink& sink);
     void drawTile(const plan::EffectPlan& plan, const RenderSettings& settings,
                   const blocks::LodestarFrame& block);
-    void drawBackdrop();
+    [[nodiscard]] plan::PlanInput describe(const View& view, const RenderSettings& settings);
+    core::Result<void> drawShadows(const plan::EffectPlan& plan, const RenderSettings& settings,
+                                   const plan::PlanInput& input);
+    void drawCaster(std::size_t index, plan::Features features, const RenderSettings& settings);
+    void drawBackdrop(const plan::EffectPlan& plan);
     blocks::LodestarDraw drawBlock(const DrawItem& item, plan::Features features) const;
     void drawItem(std::size_t index, plan::Features features, const RenderSettings& settings);
 };
 
-void Renderer::State::drawBackdrop() {
-    programs.backdrop().use();
+void Renderer::State::drawBackdrop(const plan::EffectPlan& plan) {
+    programs.backdrop(plan.backdropFeatures).use();
     fullScreen.bind();
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
@@ -128,6 +137,67 @@ void Renderer::State::drawItem(std::size_t index, plan::Features features,
     gl::drawIndexed(device, part.mode, part.indexCount);
 }
 
+void Renderer::State::drawCaster(std::size_t index, plan::Features features,
+                                 const RenderSettings& settings) {
+    const DrawItem& item = items[index];
+    const GpuPrimitive& part = gpu.primitive(item.mesh, item.primitive);
+    const io::GltfMaterial& material =
+        materialOf(scene, scene.meshes[static_cast<std::size_t>(item.mesh)]
+                              .primitives[static_cast<std::size_t>(item.primitive)]);
+    programs.depth(features, settings).use();
+    drawBuffer.update(bytesOf(drawBlock(item, features)));
+    drawBuffer.bindBlock(kDrawBinding);
+    if (plan::has(features, plan::Feature::AlphaMask)) {
+        materialBuffer.update(bytesOf(materialBlock(material, settings.materialOverride)));
+        gpu.bindTextures(material);
+    }
+    materialBuffer.bindBlock(kMaterialBinding);
+    const gl::VertexArray* morphed = deformation.vertices(index);
+    (morphed != nullptr ? *morphed : part.vertices).bind();
+    gl::drawIndexed(device, part.mode, part.indexCount);
+}
+
+/// The maps that the plan draws, and the block that says how all are read.
+core::Result<void> Renderer::State::drawShadows(const plan::EffectPlan& plan,
+                                                const RenderSettings& settings,
+                                                const plan::PlanInput& input) {
+    if (plan.rsrmLights.empty()) {
+        return {};
+    }
+    int layers = 0;
+    for (const plan::RsrmLightView& light : input.rsrmLights) {
+        layers = std::max(layers, light.shadow + 1);
+    }
+    for (const plan::LitLight& lit : plan.rsrmLights) {
+        if (!lit.drawShadow) {
+            continue;
+        }
+        if (auto begun = shadows.begin(device, lit, layers); !begun) {
+            return begun;
+        }
+        glEnable(GL_DEPTH_TEST);
+        glDepthFunc(GL_LEQUAL);
+        glDisable(GL_CULL_FACE); // a sheet casts whichever side the sun sees
+        glDisable(GL_BLEND);
+        glEnable(GL_POLYGON_OFFSET_FILL);
+        glPolygonOffset(1.5f, 2.0f);
+        blocks::LodestarFrame block{};
+        block.clipFromWorld = shadows.view(lit.shadow).clipFromWorld;
+        frameBuffer.update(bytesOf(block));
+        frameBuffer.bindBlock(kFrameBinding);
+        deformation.bind();
+        for (const std::size_t caster : plan.casters) {
+            drawCaster(caster, input.draws[caster].features, settings);
+        }
+        glDisable(GL_POLYGON_OFFSET_FILL);
+    }
+    blocks::LodestarRsrmLights block{};
+    lights.describe(plan, block);
+    shadows.describe(plan, block);
+    lightBuffer.update(bytesOf(block));
+    return {};
+}
+
 void Renderer::State::drawTile(const plan::EffectPlan& plan, const RenderSettings& settings,
                                const blocks::LodestarFrame& block) {
     target.begin();
@@ -141,18 +211,21 @@ void Renderer::State::drawTile(const plan::EffectPlan& plan, const RenderSetting
     frameBuffer.update(bytesOf(block));
     frameBuffer.bindBlock(kFrameBinding);
     environment.bind(settings);
+    lights.bind();
+    shadows.bind();
+    lightBuffer.bindBlock(kRsrmBinding);
     deformation.bind();
     bool backdropDrawn = !plan.backdrop;
     for (std::size_t i = 0; i < plan.drawOrder.size(); ++i) {
         const plan::Features features = plan.drawFeatures[i];
         if (!backdropDrawn && plan::has(features, plan::Feature::AlphaBlend)) {
-            drawBackdrop();
+            drawBackdrop(plan);
             backdropDrawn = true;
         }
         drawItem(plan.drawOrder[i], features, settings);
     }
     if (!backdropDrawn) {
-        drawBackdrop();
+        drawBackdrop(plan);
     }
 }
 
@@ -176,11 +249,65 @@ core::Result<std::unique_ptr<Renderer>> Renderer::make(gl::Device& device, const
         gl::Buffer(device, gl::BufferKind::Uniform, bytesOf(blocks::LodestarDraw{}));
     state->materialBuffer =
         gl::Buffer(device, gl::BufferKind::Uniform, bytesOf(blocks::LodestarMaterial{}));
+    state->lightBuffer =
+        gl::Buffer(device, gl::BufferKind::Uniform, bytesOf(blocks::LodestarRsrmLights{}));
     return std::unique_ptr<Renderer>(new Renderer(std::move(state)));
 }
 
 void Renderer::setEnvironment(std::string source, lighting::Cubemap base) {
     state_->environment = GpuEnvironment(std::move(source), std::move(base));
+}
+
+void Renderer::setLights(std::vector<lighting::DayLight> lights,
+                         const lighting::RsrmLayout& layout) {
+    state_->lights = GpuLights(std::move(lights), layout);
+    state_->shadows = {};
+}
+
+const core::Tally& Renderer::lightWarnings() const {
+    return state_->lights.warnings();
+}
+
+namespace {
+
+/// A sky that is not added stands in the environment's place.
+plan::EnvironmentView beside(plan::EnvironmentView environment, const GpuLights& lights) {
+    environment.replacedBy = lights.replacement();
+    environment.present = environment.present && environment.replacedBy.empty();
+    return environment;
+}
+
+void describeLights(const Scene& scene, const std::vector<DrawItem>& items, double hour,
+                    GpuLights& lights, ShadowMaps& shadows, plan::PlanInput& input) {
+    input.rsrmLights = lights.describe(hour);
+    std::vector<glm::dvec3> axes;
+    for (std::size_t i = 0; i < input.rsrmLights.size(); ++i) {
+        axes.push_back(lights.axis(i));
+    }
+    if (!axes.empty()) {
+        shadows.describe(scene, items, axes, input);
+    }
+}
+
+} // namespace
+
+plan::PlanInput planInput(const Scene& scene, const View& view, const RenderSettings& settings,
+                          plan::EnvironmentView environment,
+                          const std::vector<lighting::DayLight>& lights) {
+    GpuLights described(lights, lighting::kRsrm);
+    ShadowMaps shadows;
+    plan::PlanInput input =
+        planInput(scene, view, settings, beside(std::move(environment), described));
+    describeLights(scene, drawItems(scene), settings.hour, described, shadows, input);
+    return input;
+}
+
+plan::PlanInput Renderer::State::describe(const View& view, const RenderSettings& settings) {
+    plan::PlanInput input = planInput(scene, view, settings, beside(environment.view(), lights));
+    input.alreadyPrepared = environment.prepared();
+    deformation.describe(scene, items, input);
+    describeLights(scene, items, settings.hour, lights, shadows, input);
+    return input;
 }
 
 core::Result<void> Renderer::State::drawPicture(const View& view, const RenderSettings& settings,
@@ -218,7 +345,9 @@ core::Result<void> Renderer::State::drawPicture(const View& view, const RenderSe
 
 core::Result<Frame> Renderer::State::drawFrame(const View& view, const RenderSettings& settings,
                                                const std::function<TileSink(Frame&)>& sinkFor) {
-    LODESTAR_EXPECT(!environment.empty(), "an environment is set before a frame is drawn");
+    LODESTAR_EXPECT(!environment.empty() || !lights.empty(),
+                    "an environment or lights are set before a frame is drawn");
+    LODESTAR_EXPECT(std::isfinite(settings.hour), "an hour is finite");
     LODESTAR_EXPECT(settings.width > 0 && settings.height > 0 && settings.samplesPerSide > 0,
                     "a picture has a size");
     Frame frame;
@@ -229,22 +358,26 @@ core::Result<Frame> Renderer::State::drawFrame(const View& view, const RenderSet
         frame.timesMs[step] = millisecondsSince(start);
         return result;
     };
+    plan::PlanInput input;
     frame.plan = timed("plan", [&] {
-        plan::PlanInput input = planInput(scene, view, settings, environment.view());
-        input.alreadyPrepared = environment.prepared();
-        deformation.describe(scene, items, input);
+        input = describe(view, settings);
         return plan::plan(input);
     });
     auto prepared = timed("prepare", [&] {
         deformation.prepare(device, scene, items, gpu, frame.plan);
-        return environment.prepare(device, frame.plan.prepare);
+        auto made = environment.prepare(device, frame.plan.prepare);
+        return made ? lights.prepare(device, frame.plan) : made;
     });
     if (!prepared) {
         return prepared.error();
     }
-    auto compiled = timed("compile", [&] { return programs.compile(frame.plan, settings); });
+    auto compiled = timed("compile", [&] { return programs.compile(input, frame.plan, settings); });
     if (!compiled) {
         return compiled.error();
+    }
+    auto shadowed = timed("shadows", [&] { return drawShadows(frame.plan, settings, input); });
+    if (!shadowed) {
+        return shadowed.error();
     }
     if (auto drawn = drawPicture(view, settings, frame, sinkFor(frame)); !drawn) {
         return drawn.error();

@@ -14,6 +14,7 @@
 #include "gl/framebuffer.h"
 #include "gl/program.h"
 #include "gl/texture.h"
+#include "lighting/day.h"
 #include "lighting/environment.h"
 #include "lighting/estimator.h"
 #include "plan/effect_plan.h"
@@ -36,6 +37,7 @@ struct RenderSettings {
     lighting::Estimator specular = lighting::kDefaultSpecular;
     lighting::Estimator diffuse = lighting::kDefaultDiffuse;
     bool backdrop = true;
+    double hour = 15.0;   ///< local solar time of the lights; finite, wrapped into [0, 24)
     bool seamless = true; ///< false filters each cube face on its own, for comparison only
     std::optional<MaterialOverride> materialOverride;
 };
@@ -54,8 +56,15 @@ struct Frame {
                                         const RenderSettings& settings,
                                         const plan::EnvironmentView& environment);
 
-/// Draws one scene under one environment. The scene must outlive the renderer unchanged but for
-/// its pose: node transforms and morph weights.
+/// The same of a first frame under skies and suns too. @param lights as lighting::repaired leaves
+/// them
+[[nodiscard]] plan::PlanInput planInput(const Scene& scene, const View& view,
+                                        const RenderSettings& settings,
+                                        plan::EnvironmentView environment,
+                                        const std::vector<lighting::DayLight>& lights);
+
+/// Draws one scene under one environment, day lights, or both. The scene must outlive the renderer
+/// unchanged but for its pose: node transforms and morph weights.
 class Renderer {
 public:
     /// Uploads what the scene needs. @errors NoOpenGl if the driver has no memory for it
@@ -65,6 +74,14 @@ public:
 
     /// Sets the distant environment. @param source its name, for the plan  @param base level 0
     void setEnvironment(std::string source, lighting::Cubemap base);
+    /// Sets the skies and suns, in place of those set before. Without an environment they are all
+    /// the light, the backdrop too; beside one suns add to it, and a sky stands in its place unless
+    /// it says `add`. @param lights as lighting::repaired leaves them
+    /// @param layout how their maps are stored
+    void setLights(std::vector<lighting::DayLight> lights,
+                   const lighting::RsrmLayout& layout = lighting::kRsrm);
+    /// Counts of lights and shadows beyond what a frame holds.
+    [[nodiscard]] const core::Tally& lightWarnings() const;
 
     /// @errors NoOpenGl, Internal (a shader that the driver refuses)
     [[nodiscard]] core::Result<Frame> render(const View& view, const RenderSettings& settings);

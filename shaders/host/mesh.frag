@@ -15,6 +15,11 @@ in float vLeastLevel;
 layout(location = 0) out vec4 oRadiance; // premultiplied by coverage
 
 #include "host/material.glsl"
+#if LODESTAR_RSRM_LIGHTS
+#include "lodestar/rsrm.glsl"
+#include "host/rsrm_hooks.glsl"
+#include "host/shadow.glsl"
+#endif
 
 #if LODESTAR_PUNCTUAL_LIGHTS
 /// KHR_lights_punctual: 1/d^2 with its smooth end at the range, and the spot's cone.
@@ -35,6 +40,24 @@ vec3 punctualLights(LodestarSurface here) {
                                                   here.exponent);
     }
     return sum;
+}
+#endif
+
+#if LODESTAR_RSRM_LIGHTS
+/// Skies and suns: their means over Lambert's lobe and the glossy one summed, then weighed once.
+vec3 rsrmLights(LodestarSurface here) {
+    LodestarLookup lookup = int(rsrmLightCount.y) == LODESTAR_RSRM_PUBLISHED
+                                ? lodestar_lookupAsGiven(here.normal, here.view, here.exponent)
+                                : lodestar_lookup(here.normal, here.view, here.exponent);
+    vec3 lambert = vec3(0.0);
+    vec3 glossy = vec3(0.0);
+    for (int i = 0; i < int(rsrmLightCount.x); ++i) {
+        LodestarRsrm map = rsrmLight(i);
+        float visible = lodestar_host_visibility(i);
+        lambert += visible * lodestar_rsrm(map, here.normal, 1.0);
+        glossy += visible * lodestar_rsrm(map, lookup.direction, lookup.exponent);
+    }
+    return lodestar_reflected(here, lambert, glossy);
 }
 #endif
 
@@ -66,6 +89,9 @@ void main() {
 #endif
     vec3 reflection = 2.0 * dot(here.normal, view) * here.normal - view;
     radiance += lodestar_environment(cube, here, dFdx(reflection), dFdy(reflection));
+#endif
+#if LODESTAR_RSRM_LIGHTS
+    radiance += rsrmLights(here);
 #endif
 #if LODESTAR_PUNCTUAL_LIGHTS
     radiance += punctualLights(here);

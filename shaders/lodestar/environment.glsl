@@ -80,6 +80,23 @@ LODESTAR_FN LodestarLookup lodestar_lookup(vec3 n, vec3 v, Real exponent) {
     return lookup;
 }
 
+/// The lookup that published methods ask for: about the reflection, the exponent as given.
+LODESTAR_FN LodestarLookup lodestar_lookupAsGiven(vec3 n, vec3 v, Real exponent) {
+    LodestarLookup lookup;
+    lookup.direction = 2.0f * dot(n, v) * n - v;
+    lookup.exponent = exponent;
+    return lookup;
+}
+
+/// Radiance towards the viewer of light whose means over Lambert's and the glossy lobe are known:
+/// k_L (1 - F) lambert ao + F glossy ao_s, F Schlick's at n.v attenuated by roughness.
+LODESTAR_FN vec3 lodestar_reflected(LodestarSurface surface, vec3 lambert, vec3 glossy) {
+    Real nDotV = clamp(dot(surface.normal, surface.view), Real(0.0f), Real(1.0f));
+    vec3 fresnel = lodestar_fresnelEnvironment(surface.f0, nDotV, surface.exponent);
+    return surface.diffuse * (vec3(1.0f) - fresnel) * lambert * surface.occlusion +
+           fresnel * glossy * lodestar_specularOcclusion(surface.occlusion, surface.exponent);
+}
+
 /// Glossy radiance as the estimators publish it: about the reflection, the exponent as given.
 LODESTAR_FN vec3 lodestar_specularMip(LodestarCube cube, vec3 r, Real exponent) {
     return vec3(lodestar_host_cube(cube.slot, r, lodestar_mipLevel(exponent, cube.width, cube.maxLevel)));
@@ -126,12 +143,10 @@ LODESTAR_FN vec3 lodestar_specular(LodestarCube cube, LodestarSurface surface, v
 #endif
 }
 
-/// Radiance towards the viewer of an environment: k_L (1 - F) E/pi ao + F L_glossy ao_s.
-/// A constant environment of radiance 1 gives 1 for (k_L = 1, F0 = 0) and for F0 = 1, unoccluded.
+/// Radiance towards the viewer of an environment, by lodestar_reflected. A constant environment of
+/// radiance 1 gives 1 for (k_L = 1, F0 = 0) and for F0 = 1, unoccluded.
 LODESTAR_FN vec3 lodestar_environment(LodestarCube cube, LodestarSurface surface, vec3 reflectionDx,
                                       vec3 reflectionDy) {
-    Real nDotV = clamp(dot(surface.normal, surface.view), Real(0.0f), Real(1.0f));
-    vec3 fresnel = lodestar_fresnelEnvironment(surface.f0, nDotV, surface.exponent);
     vec3 glossy = lodestar_specular(cube, surface, reflectionDx, reflectionDy);
     vec3 lambert = lodestar_host_irradiance(cube.slot, surface.normal);
 #if LODESTAR_SPECULAR == LODESTAR_SPECULAR_TENT
@@ -139,8 +154,7 @@ LODESTAR_FN vec3 lodestar_environment(LodestarCube cube, LodestarSurface surface
     glossy = mix(glossy, lambert,
                  max(1.0f - lodestar_repairExponent(surface.exponent), Real(0.0f)));
 #endif
-    return surface.diffuse * (vec3(1.0f) - fresnel) * lambert * surface.occlusion +
-           fresnel * glossy * lodestar_specularOcclusion(surface.occlusion, surface.exponent);
+    return lodestar_reflected(surface, lambert, glossy);
 }
 
 LODESTAR_HOST_END

@@ -5,7 +5,8 @@
 //   lodestar_host_rsrm(column, row, layer)
 //     column  [0, columns - 1] and row [0, rows - 1] count texels from the centre of the first, the
 //             fraction interpolates: a texture coordinate is (column + 0.5) / columns. row = rows,
-//             one past the last, asks for the unfiltered gradient.
+//             one past the last, asks for the square root of the unfiltered gradient, which lies at
+//             u2 = column / (columns - 1) in every layout and may be stored finer than the columns.
 //     answers rgb as stored and in alpha the scale of the row (1 where the layout has none; else
 //             lodestar_rsrmRowScale of the two rows about it).
 //
@@ -108,6 +109,13 @@ LODESTAR_RSRM_BEGIN
 vec4 lodestar_host_rsrm(Real column, Real row, int layer);
 #endif
 
+/// The unfiltered gradient in a direction: what a mirror and the backdrop show.
+/// @param r unit
+LODESTAR_FN vec3 lodestar_rsrmGradient(LodestarRsrm map, vec3 r) {
+    Real column = lodestar_rsrmRefinedColumn(lodestar_rsrmHalfChord(r, map.axis)) * (map.columns - 1.0f);
+    return lodestar_rsrmDecode(lodestar_host_rsrm(column, map.rows, map.layer), LODESTAR_RSRM_REFINED);
+}
+
 /// Mean radiance of a map over the Phong lobe about a direction: the glossy term's for a reflection,
 /// Lambert's (over pi) for a normal and exponent 1.
 /// @param r unit  @param exponent [0, 1e7], +infinity a mirror; below the first row its own answer
@@ -121,8 +129,7 @@ LODESTAR_FN vec3 lodestar_rsrm(LodestarRsrm map, vec3 r, Real exponent) {
     if (map.layoutName == LODESTAR_RSRM_PUBLISHED || share <= 0.0f) {
         return filtered;
     }
-    vec3 mirror = lodestar_rsrmDecode(lodestar_host_rsrm(column, map.rows, map.layer), map.layoutName);
-    return mix(filtered, mirror, share);
+    return mix(filtered, lodestar_rsrmGradient(map, r), share);
 }
 
 LODESTAR_RSRM_END

@@ -46,7 +46,9 @@ gl::Defines everything(int specular, int diffuse, bool on) {
                              "LODESTAR_SPECULAR_TEXTURE",
                              "LODESTAR_SPECULAR_COLOR_TEXTURE",
                              "LODESTAR_SKINNING",
-                             "LODESTAR_SECOND_JOINTS"}) {
+                             "LODESTAR_SECOND_JOINTS",
+                             "LODESTAR_RSRM_LIGHTS",
+                             "LODESTAR_SHADOWS"}) {
         defines.emplace_back(name, on ? "1" : "0");
     }
     // Unlit leaves all the rest out; EverySingleFeatureCompiles switches it on.
@@ -86,6 +88,13 @@ TEST_F(Blocks, OffsetsAreTheDrivers) {
                             LODESTAR_FIELD(LodestarFrame, lightColor),
                             LODESTAR_FIELD(LodestarFrame, lightDirection),
                             LODESTAR_FIELD(LodestarFrame, lightCone),
+                            LODESTAR_FIELD(LodestarRsrmLights, rsrmLightCount),
+                            LODESTAR_FIELD(LodestarRsrmLights, rsrmMap),
+                            LODESTAR_FIELD(LodestarRsrmLights, rsrmAxis),
+                            LODESTAR_FIELD(LodestarRsrmLights, rsrmShadow),
+                            LODESTAR_FIELD(LodestarRsrmLights, rsrmLogScales),
+                            LODESTAR_FIELD(LodestarRsrmLights, shadowFromWorld),
+                            LODESTAR_FIELD(LodestarRsrmLights, shadowTexel),
                             LODESTAR_FIELD(LodestarDraw, worldFromModel),
                             LODESTAR_FIELD(LodestarDraw, normalFromModel),
                             LODESTAR_FIELD(LodestarDraw, skin),

@@ -39,3 +39,8 @@ LODESTAR_FN vec4 parity_lookup(vec3 n, vec3 v, Real exponent) {
     LodestarLookup lookup = lodestar_lookup(n, v, exponent);
     return vec4(lookup.direction, lookup.exponent);
 }
+
+LODESTAR_FN vec4 parity_lookupAsGiven(vec3 n, vec3 v, Real exponent) {
+    LodestarLookup lookup = lodestar_lookupAsGiven(n, v, exponent);
+    return vec4(lookup.direction, lookup.exponent);
+}

@@ -112,4 +112,15 @@ Tolerance rsrmTolerance(const GlslCase& p, const glm::dvec4& v, int) {
             0.0};
 }
 
+// The same without rows between: the hook answers column, rows and 3, squared with 2 products.
+Tolerance rsrmGradientTolerance(const GlslCase& p, const glm::dvec4&, int) {
+    const double columns = static_cast<double>(p[2].x);
+    const double rows = static_cast<double>(p[2].y);
+    const double h = shader_double::lodestar_rsrmHalfChord(glm::dvec3(p[0]), glm::dvec3(p[1]));
+    const double dc = columnError(0.0, h, 8.0 * u * h, columns);
+    const double column = shader_double::lodestar_rsrmColumn(0, h, columns);
+    return {2.0 * column * dc + dc * dc + 2.0 * u * column * column, 2.0 * u * rows * rows,
+            2.0 * 9.0 * u, 0.0};
+}
+
 } // namespace lodestar::testing

@@ -271,6 +271,16 @@ Tolerance lookupTolerance(const GlslCase&, const glm::dvec4& v, int) {
     return {67.0 * u, 67.0 * u, 67.0 * u, v.w * 23.0 * u};
 }
 
+Tolerance lookupAsGivenTolerance(const GlslCase&, const glm::dvec4&, int) {
+    return {8.0 * u, 8.0 * u, 8.0 * u, 0.0}; // the exponent is handed on
+}
+
+Tolerance reflectedTolerance(const GlslCase&, const glm::dvec4&, int) {
+    // Fresnel by 35 as below. Both lights are squares up to 1: u. Lambert's part has 3 more
+    // products and 1 - F, the glossy part occlusion's 7 and 2 products; a sum of at most 2.
+    return {85.0 * u, 85.0 * u, 85.0 * u, 0.0};
+}
+
 Tolerance hookTolerance(const GlslCase&, const glm::dvec4&, int) {
     return {2.0 * u, 2.0 * u, 0.0,
             0.0}; // one product and a sum; the level is selected, not computed

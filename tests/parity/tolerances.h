@@ -42,6 +42,8 @@ ToleranceFunction sh9Tolerance;
 ToleranceFunction srgbTolerance;
 ToleranceFunction linearTolerance;
 ToleranceFunction lookupTolerance;
+ToleranceFunction lookupAsGivenTolerance;
+ToleranceFunction reflectedTolerance;
 ToleranceFunction hookTolerance;
 ToleranceFunction specularMipTolerance;
 ToleranceFunction specularTentTolerance;
@@ -53,5 +55,6 @@ ToleranceFunction rsrmRowTolerance;
 ToleranceFunction rsrmRowScaleTolerance;
 ToleranceFunction rsrmMirrorShareTolerance;
 ToleranceFunction rsrmTolerance;
+ToleranceFunction rsrmGradientTolerance;
 
 } // namespace lodestar::testing

@@ -257,5 +257,70 @@ RC_GTEST_PROP(PlanProperty, PureAndComplete, ()) {
     }
 }
 
+RsrmLightView light(const char* name, int shadow) {
+    RsrmLightView view;
+    view.subject = name;
+    view.texels = 100;
+    view.uploadBytes = 800;
+    view.shadow = shadow;
+    return view;
+}
+
+/// Under a sky and a sun alone.
+PlanInput underLights(std::vector<DrawView> draws) {
+    PlanInput input = scene(std::move(draws));
+    input.environment.present = false;
+    input.rsrmLights = {light("sky", -1), light("sun", 0)};
+    input.shadowTexels = 64;
+    return input;
+}
+
+TEST(Plan, LightsStandInForTheEnvironment) {
+    const EffectPlan result = plan(underLights({ball()}));
+    EXPECT_EQ(result.prepare, lighting::PreparedParts{});
+    ASSERT_EQ(result.rsrmLights.size(), 2u);
+    EXPECT_TRUE(result.rsrmLights[0].blend);
+    EXPECT_EQ(result.rsrmLights[0].shadow, -1);
+    EXPECT_TRUE(result.rsrmLights[1].drawShadow);
+    EXPECT_EQ(result.casters, std::vector<std::size_t>{0});
+    EXPECT_EQ(effect(result, "rsrm-blend").cost.uploadBytes, 800u);
+    EXPECT_EQ(effect(result, "shadow-map").cost.texelsWritten, 64u);
+    EXPECT_TRUE(has(result.drawFeatures[0], Feature::RsrmLights));
+    EXPECT_TRUE(has(result.drawFeatures[0], Feature::Shadows));
+    EXPECT_FALSE(has(result.drawFeatures[0], Feature::Environment));
+}
+
+TEST(Plan, ASunThatDoesNotShineCostsNothing) {
+    PlanInput input = underLights({ball()});
+    input.rsrmLights[1].shines = false;
+    const EffectPlan result = plan(input);
+    ASSERT_EQ(result.rsrmLights.size(), 1u);
+    EXPECT_EQ(result.rsrmLights[0].light, 0u);
+    EXPECT_FALSE(result.runs("shadow-map"));
+    EXPECT_FALSE(has(result.drawFeatures[0], Feature::Shadows));
+}
+
+TEST(Plan, LightsThatHaveNotChangedAreKept) {
+    PlanInput input = underLights({ball()});
+    for (RsrmLightView& view : input.rsrmLights) {
+        view.changed = view.shadowChanged = false;
+    }
+    const EffectPlan result = plan(input);
+    EXPECT_FALSE(result.runs("rsrm-blend"));
+    EXPECT_FALSE(result.runs("shadow-map"));
+    EXPECT_EQ(result.rsrmLights.size(), 2u);
+    EXPECT_EQ(result.rsrmLights[1].shadow, 0) << "it is drawn already, and read";
+}
+
+TEST(Plan, NothingReceivesWhereNothingIsLit) {
+    DrawView unlit = ball();
+    unlit.lit = false;
+    unlit.features |= bit(Feature::Unlit);
+    const EffectPlan result = plan(underLights({unlit}));
+    EXPECT_FALSE(result.runs("rsrm-blend"));
+    EXPECT_FALSE(result.runs("shadow-map"));
+    EXPECT_TRUE(result.rsrmLights.empty());
+}
+
 } // namespace
 } // namespace lodestar::plan

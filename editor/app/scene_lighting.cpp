@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "app/scene_lighting.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "app/command.h"
+#include "io/document_file.h"
+#include "lighting/environment.h"
+
+namespace lodestar::app {
+namespace {
+
+constexpr const char* kClearSky = "sky";
+constexpr double kMaxExponent = 1e7;
+
+/// The document's environment, its source below the document's own folder.
+core::Result<DistantLight> documentEnvironment(const OpenedDocument& opened, int cubeWidth) {
+    const document::Environment& wanted = *opened.document.environment;
+    std::string source = wanted.source;
+    if (!lighting::isAnalytic(source)) {
+        const std::filesystem::path path(source);
+        for (const std::filesystem::path& part : path) {
+            if (path.is_absolute() || part == "..") {
+                return core::inFile(core::refused("a source lies in the document's folder or below",
+                                                  "/environment/source"),
+                                    opened.file);
+            }
+        }
+        source = (std::filesystem::path(opened.file).parent_path() / path).string();
+    }
+    auto loaded = io::loadEnvironment(source, cubeWidth);
+    if (!loaded) {
+        return core::inFile(loaded.error(), source);
+    }
+    if (wanted.rotation != 0.0) {
+        loaded->base = io::turned(loaded->base, glm::angleAxis(static_cast<float>(wanted.rotation),
+                                                               glm::vec3(0.0f, 1.0f, 0.0f)));
+    }
+    if (wanted.ev != 0.0) {
+        const auto factor = static_cast<float>(std::exp2(wanted.ev));
+        for (glm::vec4& texel : loaded->base.level(0)) {
+            texel = glm::vec4(glm::min(glm::vec3(texel) * factor,
+                                       glm::vec3(static_cast<float>(lighting::kMaxRadiance))),
+                              texel.a);
+        }
+    }
+    return DistantLight{source, std::move(*loaded)};
+}
+
+void apply(const document::Material& from, io::GltfMaterial& material, core::Tally& warnings) {
+    if (from.exponent || from.diffuse || from.f0) {
+        io::GltfBlinnPhong given = material.blinnPhong.value_or(io::GltfBlinnPhong{});
+        if (from.exponent) {
+            given.exponent = static_cast<float>(std::min(*from.exponent, kMaxExponent));
+            given.exponentTexture = {};
+        }
+        if (from.diffuse) {
+            given.diffuse = glm::vec3(*from.diffuse);
+        }
+        if (from.f0) {
+            given.f0 = glm::vec3(*from.f0);
+        }
+        material.blinnPhong = given;
+    }
+    warnings.add("estimator of one material, left out: a frame has one for all",
+                 from.specular || from.tolerance ? 1 : 0);
+}
+
+} // namespace
+
+core::Result<std::optional<OpenedDocument>> openDocument(const SceneOptions& options) {
+    OpenedDocument opened;
+    opened.file = options.lighting;
+    if (opened.file.empty()) {
+        const std::filesystem::path beside = io::sidecarPath(options.scene);
+        std::error_code ignored;
+        if (!std::filesystem::exists(beside, ignored)) {
+            return std::optional<OpenedDocument>();
+        }
+        opened.file = beside.string();
+    }
+    auto document = io::loadDocument(opened.file, opened.warnings);
+    if (!document) {
+        return document.error();
+    }
+    core::Tally counted; // by the loading already
+    auto lights = document::dayLights(*document, counted);
+    if (!lights) {
+        return core::inFile(lights.error(), opened.file);
+    }
+    opened.document = std::move(*document);
+    opened.lights = std::move(*lights);
+    return std::optional<OpenedDocument>(std::move(opened));
+}
+
+core::Result<DistantLight> distantLight(const SceneOptions& options, const OpenedFile& opened,
+                                        const std::optional<OpenedDocument>& document) {
+    const std::string& named = options.environment;
+    const int own =
+        opened.sceneIndex == io::kNone
+            ? io::kNone
+            : opened.file.scenes[static_cast<std::size_t>(opened.sceneIndex)].environment;
+    if (named.empty() && document) {
+        if (document->document.environment) {
+            return documentEnvironment(*document, options.cubeWidth);
+        }
+        if (!document->lights.empty()) {
+            return DistantLight{};
+        }
+    }
+    if (named.empty() && own == io::kNone) {
+        DistantLight sky{kClearSky, {}};
+        sky.environment.base =
+            lighting::cubeFromAnalytic(lighting::ClearSkyEnvironment{}, options.cubeWidth);
+        return sky;
+    }
+    auto environment = named.empty() ? io::environmentOf(opened.file, own, options.cubeWidth)
+                                     : io::loadEnvironment(named, options.cubeWidth);
+    if (!environment) {
+        return core::inFile(environment.error(), named.empty() ? options.scene : named);
+    }
+    return DistantLight{
+        named.empty() ? options.scene + " (image-based light " + std::to_string(own) + ")" : named,
+        std::move(*environment)};
+}
+
+void applyMaterials(const document::Document& document, scene::Scene& scene,
+                    core::Tally& warnings) {
+    for (const auto& [name, material] : document.materials) {
+        bool found = false;
+        for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+            io::GltfMaterial& target = scene.materials[i];
+            if ((!target.name.empty() && target.name == name) || name == "#" + std::to_string(i)) {
+                apply(material, target, warnings);
+                found = true;
+            }
+        }
+        warnings.add("material that the scene lacks, left out", found ? 0 : 1);
+    }
+}
+
+core::Result<double> hourOf(const SceneOptions& options, core::Tally& warnings) {
+    if (!std::isfinite(options.hour)) {
+        return usage("an hour is a number", "--hour");
+    }
+    warnings.add("hour outside [0, 24), wrapped",
+                 options.hour < 0.0 || options.hour >= 24.0 ? 1 : 0);
+    return lighting::wrappedHour(options.hour);
+}
+
+} // namespace lodestar::app

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+//
+// Skies and suns on the GPU: each light's filtered map is a layer of one texture array, its
+// unfiltered gradient a layer of another. Keys are baked once; a frame whose hour lies elsewhere
+// between them blends the bakes, which is exact, encodes and uploads.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/tally.h"
+#include "gl/texture.h"
+#include "host/blocks.glsl"
+#include "lighting/day.h"
+#include "lighting/rsrm.h"
+#include "plan/effect_plan.h"
+
+namespace lodestar::scene {
+
+/// Columns of the unfiltered gradient, uniform in u2: 0.011 degrees at the edge of a sun's disc;
+/// as RGBA16F 16 KB a light.
+inline constexpr int kGradientColumns = 2048;
+
+class GpuLights {
+public:
+    GpuLights() = default;
+    /// @param lights as `repaired` leaves them; those beyond LODESTAR_MAX_RSRM_LIGHTS are left out
+    /// and counted, so are shadows beyond LODESTAR_MAX_SHADOWS
+    GpuLights(std::vector<lighting::DayLight> lights, const lighting::RsrmLayout& layout);
+
+    [[nodiscard]] bool empty() const { return lights_.empty(); }
+    /// The name of a sky that stands in the environment's place; empty if none does.
+    [[nodiscard]] std::string replacement() const;
+    [[nodiscard]] const core::Tally& warnings() const { return warnings_; }
+
+    /// What the planner is told of the lights at an hour. @param hour finite
+    [[nodiscard]] std::vector<plan::RsrmLightView> describe(double hour);
+    /// Blends, encodes and uploads what the plan says, for the hour last described.
+    /// @errors NoOpenGl if the driver has no memory for the maps
+    [[nodiscard]] core::Result<void> prepare(gl::Device& device, const plan::EffectPlan& plan);
+
+    /// Fills the block but for its shadows.
+    void describe(const plan::EffectPlan& plan, blocks::LodestarRsrmLights& block) const;
+    /// The axis of a light at the hour last described, unit.
+    [[nodiscard]] glm::dvec3 axis(std::size_t light) const { return lights_[light].moment.axis; }
+    void bind() const;
+
+private:
+    struct Key {
+        lighting::RsrmBake bake;
+        std::vector<glm::vec3> gradient; ///< at kGradientColumns
+    };
+    /// What a layer holds: two keys, their blend, and a factor.
+    struct Content {
+        std::size_t from = 0, to = 0;
+        double t = 0.0, factor = 1.0;
+        bool operator==(const Content&) const = default;
+    };
+    struct Light {
+        lighting::DayLight day;
+        std::vector<std::optional<Key>> keys; ///< baked at their first use
+        lighting::DayMoment moment;
+        std::optional<Content> uploaded;
+        std::vector<float> logScales;
+        int shadow = -1; ///< its layer of the shadow maps
+    };
+
+    [[nodiscard]] static Content contentOf(const Light& light);
+    [[nodiscard]] const Key& key(Light& light, std::size_t index);
+    [[nodiscard]] core::Result<void> allocate(gl::Device& device);
+    void upload(std::size_t index);
+
+    lighting::RsrmLayout layout_ = lighting::kRsrm;
+    std::vector<Light> lights_;
+    core::Tally warnings_;
+    std::shared_ptr<lighting::RsrmKernels> kernels_ = std::make_shared<lighting::RsrmKernels>();
+    gl::Texture maps_, gradients_;
+};
+
+} // namespace lodestar::scene

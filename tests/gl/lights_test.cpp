@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: MIT
+//
+// Skies and suns on screen: furnace, a sphere against double precision, shadows against rays, and
+// that what has not changed costs nothing.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "lighting/rsrm_weights.h"
+#include "scene/renderer.h"
+#include "support/gl_fixture.h"
+#include "support/shapes.h"
+
+#define LODESTAR_DOUBLE_PRECISION
+#include "lodestar/lobes.glsl"
+
+namespace lodestar {
+namespace {
+
+using lighting::DayLight;
+using lighting::LightKind;
+
+class Lights : public testing::GlTest {};
+
+DayLight constantSky() {
+    DayLight sky;
+    sky.name = "sky";
+    for (const double hour : {3.0, 9.5, 20.0}) {
+        sky.keys.push_back({hour, {{{90.0, glm::dvec3(1.0), 0.0}}}, glm::dvec3(1.0), {}});
+    }
+    return sky;
+}
+
+DayLight paintedSky() {
+    DayLight sky;
+    sky.name = "sky";
+    const lighting::Gradient noon{{{90, {0.1, 0.2, 0.6}, 0},
+                                   {25, {0.3, 0.4, 0.7}, 0},
+                                   {0, {0.9, 0.9, 0.8}, 0},
+                                   {0, {0.2, 0.18, 0.15}, 0},
+                                   {-90, {0.15, 0.14, 0.12}, 0}}};
+    lighting::Gradient dusk = noon;
+    dusk.stops[2].color = {1.2, 0.5, 0.2};
+    sky.keys = {{12.0, noon, glm::dvec3(1.0), {}}, {19.0, dusk, {0.6, 0.5, 0.5}, {}}};
+    return sky;
+}
+
+/// A disc of 0.27 degrees, and a glow that the layout's figures count too.
+DayLight paintedSun(const glm::dvec3& axis) {
+    DayLight sun;
+    sun.name = "sun";
+    sun.kind = LightKind::Sun;
+    sun.axis = glm::normalize(axis);
+    const lighting::Gradient disc{{{0, {1, 0.9, 0.8}, 15},
+                                   {0.27, {1, 0.9, 0.8}, 15},
+                                   {0.27, {1, 0.8, 0.6}, 3},
+                                   {5, {1, 0.7, 0.4}, 0},
+                                   {60, {0, 0, 0}, 0}}};
+    sun.keys = {{12.0, disc, glm::dvec3(1.0), {}}, {19.0, disc, {0.5, 0.3, 0.1}, {}}};
+    return sun;
+}
+
+std::vector<DayLight> inOrder(std::vector<DayLight> lights) {
+    core::Tally warnings;
+    for (DayLight& light : lights) {
+        light = *lighting::repaired(light, warnings);
+    }
+    return lights;
+}
+
+scene::Scene whiteSphere(int rings) {
+    return scene::buildScene(
+        testing::fileOf(testing::sphere(rings, 2 * rings), testing::blinnPhong({}, {}, 0.0f)));
+}
+
+TEST_F(Lights, FurnaceShowsOne) {
+    const scene::Scene scene = whiteSphere(48);
+    auto renderer = scene::Renderer::make(device(), scene);
+    ASSERT_TRUE(renderer.ok());
+    scene::RenderSettings settings;
+    settings.width = settings.height = 48;
+    settings.backdrop = false;
+    for (const lighting::RsrmLayout& layout :
+         {lighting::kRsrm, lighting::kRsrmSmall, lighting::kRsrmPlain, lighting::kRsrmReference}) {
+        (*renderer)->setLights(inOrder({constantSky()}), layout);
+        for (const double hour : {0.0, 3.0, 6.7, 12.0, 23.9}) {
+            settings.hour = hour;
+            for (const float exponent : {0.0f, 1.0f, 8.0f, 300.0f, 2048.0f, 1e5f, 1e7f}) {
+                for (const bool mirror : {false, true}) {
+                    settings.materialOverride = scene::MaterialOverride{
+                        glm::vec3(mirror ? 0.0f : 1.0f), glm::vec3(mirror ? 1.0f : 0.0f), exponent};
+                    auto frame = (*renderer)->render(testing::frontView(scene), settings);
+                    ASSERT_TRUE(frame.ok()) << frame.error().message();
+                    int covered = 0;
+                    for (std::size_t i = 0; i < frame->radiance.pixels().size(); i += 4) {
+                        if (frame->radiance.pixels()[i + 3] > 0.0f) {
+                            ++covered;
+                            ASSERT_NEAR(frame->radiance.pixels()[i], 1.0f, 1e-3f)
+                                << hour << " h, exponent " << exponent;
+                        }
+                    }
+                    EXPECT_GT(covered, 500);
+                }
+            }
+        }
+    }
+}
+
+/// A light's gradient at an hour as means of zones that end at its stops, 96 between two.
+struct ExactLight {
+    glm::dvec3 axis;
+    std::vector<double> edges;
+    std::vector<glm::dvec3> means;
+
+    ExactLight(const DayLight& light, double hour) {
+        const lighting::DayMoment moment = lighting::momentAt(light, hour);
+        axis = moment.axis;
+        std::vector<double> breaks = {0.0, std::numbers::pi};
+        std::vector<lighting::RadianceProfile> profiles;
+        for (const std::size_t key : {moment.keys.from, moment.keys.to}) {
+            profiles.emplace_back(light.keys[key].gradient, light.kind);
+            breaks.insert(breaks.end(), profiles.back().breaks().begin(),
+                          profiles.back().breaks().end());
+        }
+        std::sort(breaks.begin(), breaks.end());
+        edges.push_back(0.0);
+        for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+            for (int k = 1; k <= 96 && breaks[i + 1] - breaks[i] > 1e-9; ++k) {
+                edges.push_back(breaks[i] + (breaks[i + 1] - breaks[i]) * k / 96.0);
+            }
+        }
+        const auto from = lighting::ringMeans(profiles[0], edges);
+        const auto to = lighting::ringMeans(profiles[1], edges);
+        for (std::size_t j = 0; j < from.size(); ++j) {
+            means.push_back(((1.0 - moment.keys.t) * from[j] * light.keys[moment.keys.from].tint +
+                             moment.keys.t * to[j] * light.keys[moment.keys.to].tint) *
+                            moment.visibility);
+        }
+    }
+
+    /// Mean radiance under the Phong lobe; the zone's own where the exponent is infinite.
+    [[nodiscard]] glm::dvec3 filtered(const glm::dvec3& direction, double s) const {
+        const double theta = 2.0 * std::asin(std::min(0.5 * glm::length(direction - axis), 1.0));
+        if (std::isinf(s)) {
+            const auto at = std::upper_bound(edges.begin() + 1, edges.end() - 1, theta);
+            return means[static_cast<std::size_t>(at - edges.begin()) - 1];
+        }
+        const std::vector<double> weights = lighting::ringWeights(theta, edges, s);
+        glm::dvec3 sum(0.0);
+        for (std::size_t j = 0; j < weights.size(); ++j) {
+            sum += weights[j] * means[j];
+        }
+        return sum;
+    }
+    /// How near the direction lies to a step of the gradient, radians.
+    [[nodiscard]] double toStep(const glm::dvec3& direction, double step) const {
+        return std::abs(2.0 * std::asin(0.5 * glm::length(direction - axis)) - step);
+    }
+};
+
+/// The white sphere as double precision has it: lit by the lobe that the lookup asks for.
+TEST_F(Lights, ASphereEqualsDoublePrecision) {
+    constexpr int kSide = 28;
+    const scene::Scene scene = whiteSphere(256);
+    auto renderer = scene::Renderer::make(device(), scene);
+    ASSERT_TRUE(renderer.ok());
+    const std::vector<DayLight> lights = inOrder({paintedSky(), paintedSun({0.5, 0.6, 0.7})});
+    (*renderer)->setLights(lights);
+    scene::RenderSettings settings;
+    settings.width = settings.height = kSide;
+    settings.backdrop = false;
+    settings.hour = 14.5;
+    std::vector<ExactLight> exact;
+    for (const DayLight& light : lights) {
+        exact.emplace_back(light, settings.hour);
+    }
+    const double infinity = std::numeric_limits<double>::infinity();
+    for (const double exponent : {0.0, 8.0, 64.0, 512.0, infinity}) {
+        settings.materialOverride = scene::MaterialOverride{
+            glm::vec3(0.0f), glm::vec3(1.0f), static_cast<float>(std::min(exponent, 1e7))};
+        auto frame = (*renderer)->render(testing::frontView(scene), settings);
+        ASSERT_TRUE(frame.ok());
+        double worst = 0.0, worstOfPeak = 0.0, peak = 0.0;
+        int compared = 0;
+        struct Pixel {
+            double value, expected;
+        };
+        std::vector<Pixel> pixels;
+        for (int y = 0; y < kSide; ++y) {
+            for (int x = 0; x < kSide; ++x) {
+                const double half = std::tan(0.35);
+                const glm::dvec3 eye(0.0, 0.0, 3.5);
+                const glm::dvec3 ray =
+                    glm::normalize(glm::dvec3(half * (2.0 * (x + 0.5) / kSide - 1.0),
+                                              half * (1.0 - 2.0 * (y + 0.5) / kSide), -1.0));
+                const double b = glm::dot(eye, ray);
+                const double root = b * b - glm::dot(eye, eye) + 1.0;
+                // At the silhouette the mesh's chords, 1e-4 inside the sphere, turn the normal.
+                if (root < 0.02) {
+                    continue;
+                }
+                const glm::dvec3 n = eye + (-b - std::sqrt(root)) * ray;
+                const glm::dvec3 r = 2.0 * glm::dot(n, -ray) * n + ray;
+                const double nDotV = glm::dot(n, -ray);
+                const bool mirror = std::isinf(exponent);
+                const glm::dvec3 direction =
+                    mirror ? r
+                           : glm::normalize(glm::mix(
+                                 n, r, shader_double::lodestar_lookupBlend(exponent, nDotV)));
+                const double s =
+                    mirror ? exponent : shader_double::lodestar_lookupExponent(exponent, nDotV);
+                if (mirror && (exact[0].toStep(direction, 0.5 * std::numbers::pi) < 0.002 ||
+                               exact[1].toStep(direction, 0.27 * std::numbers::pi / 180) < 0.002)) {
+                    continue; // a step falls within the pixel
+                }
+                double expected = 0.0;
+                for (const ExactLight& light : exact) {
+                    expected += light.filtered(direction, s).g;
+                }
+                pixels.push_back({static_cast<double>(frame->radiance.at(x, y)[1]), expected});
+                peak = std::max(peak, expected);
+                ++compared;
+            }
+        }
+        for (const Pixel& pixel : pixels) {
+            const double off = std::abs(pixel.value - pixel.expected);
+            worst = std::max(worst, off / pixel.expected);
+            worstOfPeak = std::max(worstOfPeak, off / peak);
+        }
+        std::printf("exponent %g: %d pixels, worst %.4f of the value, %.4f of the peak\n", exponent,
+                    compared, worst, worstOfPeak);
+        EXPECT_GT(compared, 300);
+        EXPECT_LT(worst, 0.02) << "exponent " << exponent;
+    }
+}
+
+std::vector<std::string> running(const plan::EffectPlan& plan) {
+    std::vector<std::string> names;
+    for (const plan::Effect& effect : plan.effects) {
+        if (effect.decision == plan::Decision::Run && effect.effect != "draw") {
+            names.push_back(effect.effect + " " + effect.subject);
+        }
+    }
+    return names;
+}
+
+TEST_F(Lights, WhatHasNotChangedCostsNothing) {
+    const scene::Scene scene = whiteSphere(32);
+    auto renderer = scene::Renderer::make(device(), scene);
+    ASSERT_TRUE(renderer.ok());
+    DayLight sun = paintedSun({0.0, 1.0, 0.0});
+    sun.path = lighting::SunPath{0.7, 172, {0.0, 0.0, -1.0}};
+    (*renderer)->setLights(inOrder({paintedSky(), sun}));
+    scene::RenderSettings settings;
+    settings.width = settings.height = 32;
+    const auto frameAt = [&](double hour) {
+        settings.hour = hour;
+        auto frame = (*renderer)->render(testing::frontView(scene), settings);
+        EXPECT_TRUE(frame.ok());
+        return std::move(*frame);
+    };
+    const scene::Frame noon = frameAt(13.0);
+    EXPECT_TRUE(noon.plan.runs("rsrm-blend"));
+    EXPECT_TRUE(noon.plan.runs("shadow-map"));
+    const scene::Frame again = frameAt(13.0);
+    EXPECT_EQ(running(again.plan), (std::vector<std::string>{"backdrop lights"}));
+    EXPECT_EQ(again.counters.passes, 1u);
+    EXPECT_EQ(noon.counters.passes, 2u) << "the shadow map and the picture";
+    // Night: the sky alone is blended, the sun has no map, no pass and no term.
+    const scene::Frame night = frameAt(1.0);
+    EXPECT_EQ(night.counters.passes, 1u);
+    EXPECT_EQ(running(night.plan), (std::vector<std::string>{"rsrm-blend sky", "backdrop lights"}));
+    EXPECT_EQ(night.plan.rsrmLights.size(), 1u);
+    EXPECT_LT(night.counters.uploadBytes, noon.counters.uploadBytes);
+    // Over midnight nothing jumps: a minute moves the blend by 1/1020 of the keys' difference.
+    const scene::Frame before = frameAt(23.999);
+    const scene::Frame after = frameAt(0.001);
+    for (std::size_t i = 0; i < before.radiance.pixels().size(); ++i) {
+        ASSERT_NEAR(before.radiance.pixels()[i], after.radiance.pixels()[i], 2e-3f);
+    }
+}
+
+/// A floor and a smaller square before it, seen from where the sun is not.
+scene::Scene floorAndBlocker() {
+    io::GltfFile file =
+        testing::fileOf(testing::square(), testing::blinnPhong(glm::vec3(1.0f), {}, 0.0f));
+    file.materials[0].doubleSided = true;
+    file.nodes[0].scale = glm::vec3(2.0f);
+    io::GltfNode blocker = file.nodes[0];
+    blocker.name = "blocker";
+    blocker.scale = glm::vec3(0.5f);
+    blocker.translation = {0.0f, 0.0f, 1.0f};
+    file.nodes.push_back(blocker);
+    file.scenes[0].roots.push_back(1);
+    return scene::buildScene(std::move(file));
+}
+
+TEST_F(Lights, ShadowsFallWhereRaysSay) {
+    const scene::Scene scene = floorAndBlocker();
+    auto renderer = scene::Renderer::make(device(), scene);
+    ASSERT_TRUE(renderer.ok());
+    constexpr int kSide = 96;
+    scene::RenderSettings settings;
+    settings.width = settings.height = kSide;
+    settings.backdrop = false;
+    settings.hour = 12.0;
+    DayLight sun = paintedSun({0.7, 0.4, 1.0});
+    sun.keys[0].gradient.stops.resize(2);
+    sun.keys.resize(1);
+    const glm::dvec3 axis = sun.axis;
+    (*renderer)->setLights(inOrder({sun}));
+    auto shadowed = (*renderer)->render(testing::frontView(scene, 6.0f), settings);
+    ASSERT_TRUE(shadowed.ok());
+    sun.visibility = false;
+    (*renderer)->setLights(inOrder({sun}));
+    auto open = (*renderer)->render(testing::frontView(scene, 6.0f), settings);
+    ASSERT_TRUE(open.ok());
+    EXPECT_FALSE(open->plan.runs("shadow-map"));
+    int dark = 0, bright = 0;
+    // Texels of 2 x 2.9 / 2048: filtering and the offset along the normal reach 4 of them.
+    constexpr double kMargin = 0.012;
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            const glm::dvec2 ndc(2.0 * (x + 0.5) / kSide - 1.0, 1.0 - 2.0 * (y + 0.5) / kSide);
+            const glm::dvec2 slope = ndc * std::tan(0.35);
+            const glm::dvec2 atBlocker = slope * 5.0;
+            const glm::dvec2 atFloor = slope * 6.0;
+            const double nearest = std::max(std::abs(atBlocker.x), std::abs(atBlocker.y)) - 0.5;
+            if (std::abs(nearest) < 0.05 ||
+                std::max(std::abs(atFloor.x), std::abs(atFloor.y)) > 1.98) {
+                continue;
+            }
+            double inside = 1.0; // of the blocker's own shadow region: far outside
+            if (nearest > 0.0) {
+                const glm::dvec2 hit = atFloor + glm::dvec2(axis) / axis.z;
+                inside = std::max(std::abs(hit.x), std::abs(hit.y)) - 0.5;
+            }
+            if (std::abs(inside) < kMargin) {
+                continue;
+            }
+            const double ratio = static_cast<double>(shadowed->radiance.at(x, y)[0]) /
+                                 static_cast<double>(open->radiance.at(x, y)[0]);
+            EXPECT_NEAR(ratio, inside < 0.0 ? 0.0 : 1.0, 1e-3) << x << ", " << y;
+            (inside < 0.0 ? dark : bright) += 1;
+        }
+    }
+    EXPECT_GT(dark, 100);
+    EXPECT_GT(bright, 1000);
+}
+
+} // namespace
+} // namespace lodestar
