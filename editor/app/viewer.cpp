@@ -64,7 +64,7 @@ core::Result<std::unique_ptr<Viewer>> Viewer::make(gl::Device& device, LoadedSce
     }
     viewer->document_ = std::move(*document);
     warn(loaded.lightWarnings, loaded.lightsName);
-    viewer->document_.renderer->setLights(std::move(loaded.lights));
+    viewer->takeLights(std::move(loaded.lights));
     viewer->takeLight(std::move(loaded.light));
     viewer->animation_ = loaded.animation;
     viewer->time_ = loaded.time;
@@ -160,8 +160,7 @@ void Viewer::openScene(const std::string& path, std::optional<int> number) {
         return;
     }
     document_ = std::move(*document);
-    document_.renderer->setLights(*lighting ? std::move((*lighting)->lights)
-                                            : std::vector<lighting::DayLight>());
+    takeLights(*lighting ? std::move((*lighting)->lights) : std::vector<lighting::DayLight>());
     own ? takeLight(std::move(*own)) : showEnvironment();
     sceneIndex_ = index;
     sceneCount_ = count;
@@ -197,6 +196,7 @@ void Viewer::openEnvironment(const std::string& path) {
     }
     takeLight({path, std::move(*loaded)});
     lightChosen_ = true;
+    dropReplacingSkies();
     say("lit by " + path, false);
     changed(true);
 }
@@ -211,7 +211,7 @@ bool Viewer::wantsFrame() const {
 }
 
 double Viewer::patience() const {
-    if (wantsFrame() || playing_ || flyDirection() != glm::vec3(0.0f)) {
+    if (wantsFrame() || playing_ || dayPlaying_ || flyDirection() != glm::vec3(0.0f)) {
         return 0.0;
     }
     return coarse_ ? kMotionSeconds : std::numeric_limits<double>::infinity();
@@ -284,13 +284,16 @@ OverlayText Viewer::text() const {
     if (!textShown_ && !help_) {
         return text;
     }
+    const bool onlyLights = environment_.empty() && !lights_.empty();
     text.lines = {nameOf(document_.path) +
                       (document_.scene->name.empty() ? "" : ": " + document_.scene->name),
-                  "light     " + nameOf(environmentName_),
+                  onlyLights ? "light     the lighting document"
+                             : "light     " + nameOf(environmentName_),
                   "glossy    " + lighting::estimatorName(settings_.specular),
                   "diffuse   " + lighting::estimatorName(settings_.diffuse),
                   "exposure  " + formatted("%+.2f EV", exposure_),
                   animationText(),
+                  lights_.empty() ? "no hour: no lighting document" : hourText(),
                   timeText(),
                   "F1 help"};
     text.message = message_;

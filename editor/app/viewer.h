@@ -80,6 +80,13 @@ private:
     void openScene(const std::string& path, std::optional<int> number);
     void takeLight(DistantLight light);
     void showEnvironment();
+    void takeLights(std::vector<lighting::DayLight> lights);
+    void dropReplacingSkies();
+    void moveHour(double hours);
+    void playDay();
+    void nextDaySpeed();
+    void advanceDay(double seconds);
+    [[nodiscard]] std::string hourText() const;
     void openEnvironment(const std::string& path);
     void press(const platform::KeyEvent& event);
     void perform(const KeyBinding& binding);
@@ -112,6 +119,9 @@ private:
     std::string environmentName_;
     core::Tally lightWarnings_;
     bool lightChosen_ = false; ///< by the options or dropped; otherwise a scene brings its own
+    std::vector<lighting::DayLight> lights_; ///< of the lighting document
+    bool dayPlaying_ = false;
+    std::size_t daySpeed_ = 0;
     scene::RenderSettings settings_;
     scene::CameraRequest request_;
     Document document_;

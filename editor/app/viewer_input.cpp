@@ -36,6 +36,7 @@ template <class... Visitors>
 Overloaded(Visitors...) -> Overloaded<Visitors...>;
 
 /// Of a key that scrubs, seconds.
+constexpr double kHourStep = 0.25;
 constexpr double kScrubStep = 0.05;
 
 } // namespace
@@ -122,6 +123,7 @@ glm::vec3 Viewer::flyDirection() const {
 
 void Viewer::advance(double seconds) {
     advanceAnimation(seconds);
+    advanceDay(seconds);
     if (const glm::vec3 direction = flyDirection(); direction != glm::vec3(0.0f)) {
         const float metres = scene::flySpeed(document_.bounds, held(Key::Shift)) *
                              static_cast<float>(std::min(seconds, kLongestStep));
@@ -135,7 +137,9 @@ void Viewer::press(const platform::KeyEvent& event) {
         return;
     }
     const bool repeats = binding->action == Action::Brighter || binding->action == Action::Darker ||
-                         binding->action == Action::Earlier || binding->action == Action::Later;
+                         binding->action == Action::Earlier || binding->action == Action::Later ||
+                         binding->action == Action::HourEarlier ||
+                         binding->action == Action::HourLater;
     if (!event.repeat || repeats) {
         perform(*binding);
     }
@@ -168,6 +172,17 @@ void Viewer::perform(const KeyBinding& binding) {
     case Action::Earlier:
     case Action::Later:
         scrub(binding.action == Action::Later ? kScrubStep : -kScrubStep);
+        break;
+    case Action::HourEarlier:
+    case Action::HourLater:
+        dayPlaying_ = false;
+        moveHour(binding.action == Action::HourLater ? kHourStep : -kHourStep);
+        break;
+    case Action::PlayDay:
+        playDay();
+        break;
+    case Action::DaySpeed:
+        nextDaySpeed();
         break;
     case Action::NextAnimation:
         chooseAnimation(animation_ + 1);

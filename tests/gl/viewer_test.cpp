@@ -210,6 +210,39 @@ TEST_F(ViewerTest, PointerAndHeldKeysMoveTheCameraAndHomeResetsIt) {
     EXPECT_FLOAT_EQ(before.position.z - viewer_->view().position.z, once) << "a key got stuck";
 }
 
+TEST_F(ViewerTest, TheHourMovesByKeysAndPlays) {
+    const auto hourLine = [&] {
+        for (const std::string& line : viewer_->text().lines) {
+            if (line.find("hour") != std::string::npos) {
+                return line;
+            }
+        }
+        return std::string();
+    };
+    EXPECT_EQ(hourLine(), "no hour: no lighting document");
+    press(Key::Y);
+    EXPECT_EQ(hourLine(), "no hour: no lighting document");
+    std::ofstream(folder_.file("second.lodestar.json"))
+        << R"({"lodestar":1,"lights":[{"kind":"sky","keys":[{"hour":6,"gradient":{"stops":[
+{"at":90,"color":[1,1,1]}]}},{"hour":18,"gradient":{"stops":[{"at":90,"color":[2,2,2]}]}}]}]})";
+    drop(sceneFile("second.gltf", "Second"));
+    EXPECT_EQ(hourLine(), "hour      15:00");
+    press(Key::T);
+    EXPECT_EQ(hourLine(), "hour      15:15");
+    press(Key::T, {true, false, false});
+    press(Key::T, {true, false, false});
+    EXPECT_EQ(hourLine(), "hour      14:45");
+    press(Key::Y);
+    EXPECT_EQ(viewer_->patience(), 0.0);
+    viewer_->advance(25.0); // ten hours at 0.4 a second
+    EXPECT_EQ(hourLine(), "hour      00:45, 0.4 hours a second");
+    press(Key::Y, {true, false, false});
+    viewer_->advance(1.0);
+    EXPECT_EQ(hourLine(), "hour      02:21, 1.6 hours a second");
+    press(Key::Y);
+    EXPECT_EQ(hourLine(), "hour      02:21");
+}
+
 TEST_F(ViewerTest, KeysChooseAndClose) {
     press(Key::Digit2);
     press(Key::Digit3, {true, false, false});
