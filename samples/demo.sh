@@ -35,7 +35,7 @@ export LIBGL_ALWAYS_SOFTWARE=${LIBGL_ALWAYS_SOFTWARE:-1}
 out=out/demo
 assets=$out/assets
 parts=$out/parts
-total=11
+total=13
 step=0
 started=$SECONDS
 
@@ -75,7 +75,7 @@ build() {
     if [ ! -f build/CMakeCache.txt ]; then
         configure_build -DLODESTAR_BUILD_TESTS=OFF || stop "the build cannot be configured"
     fi
-    if ! cmake --build build --target lodestar lodestar-make-assets lodestar-compose >"$log" 2>&1; then
+    if ! cmake --build build --target lodestar lodestar-make-assets lodestar-compose lodestar-day >"$log" 2>&1; then
         grep -E 'error|FAILED' "$log" | head -n 20 >&2
         rm -f "$log"
         stop "the build failed"
@@ -161,8 +161,28 @@ studio="--environment $assets/studio.exr"
     render $out/table.png terrace --size 1280x720 --camera table --environment-width 512 $courtyard
 }
 
+next "four skies through the day"
+skies="clear overcast golden_hour two_moons"
+documents=""
+for sky in $skies; do documents="$documents samples/skies/$sky.lodestar.json"; done
+# shellcheck disable=SC2086 # a list of documents
+build/lodestar-day "$assets/terrace.gltf" "$parts" 200x113 terrace 1,5.5,8,12,17.5,18.8 $documents ||
+    stop "the day could not be rendered"
+rows=""
+for sky in $skies; do
+    rows="$rows --row $sky"
+    for hour in 1 5.5 8 12 17.5 18.8; do rows="$rows $parts/$sky-$hour.png"; done
+done
+# shellcheck disable=SC2086
+sheet day --title "Four painted skies" --note "Sky and sun are maps of 16 KB; no map is captured or filtered again" \
+    --columns "1:00|5:30|8:00|12:00|17:30|18:48" $rows
+
+next "the golden hour"
+render $out/golden_hour.png terrace --size 1280x720 --camera terrace --hour 18 \
+    --lighting samples/skies/golden_hour.lodestar.json
+
 echo "done in $((SECONDS - started)) s; look at:"
-for picture in figure1 figure2 figure3 ashikhmin seams estimators terrace table; do
+for picture in figure1 figure2 figure3 ashikhmin seams estimators terrace table day golden_hour; do
     echo "    $out/$picture.png"
 done
 

@@ -55,8 +55,9 @@ bool shines(const lighting::DayMoment& moment) {
 
 } // namespace
 
-GpuLights::GpuLights(std::vector<lighting::DayLight> lights, const lighting::RsrmLayout& layout)
-    : layout_(layout) {
+GpuLights::GpuLights(std::vector<lighting::DayLight> lights, const lighting::RsrmLayout& layout,
+                     std::shared_ptr<lighting::RsrmKernels> kernels)
+    : layout_(layout), kernels_(std::move(kernels)) {
     LODESTAR_EXPECT(layout.rows <= LODESTAR_MAX_RSRM_ROWS, "the block holds a scale a row");
     int shadows = 0;
     for (lighting::DayLight& day : lights) {

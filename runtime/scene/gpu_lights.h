@@ -28,7 +28,11 @@ public:
     GpuLights() = default;
     /// @param lights as `repaired` leaves them; those beyond LODESTAR_MAX_RSRM_LIGHTS are left out
     /// and counted, so are shadows beyond LODESTAR_MAX_SHADOWS
-    GpuLights(std::vector<lighting::DayLight> lights, const lighting::RsrmLayout& layout);
+    /// @param kernels that bake the keys, half a second each to build: shared with the lights
+    /// before
+    GpuLights(std::vector<lighting::DayLight> lights, const lighting::RsrmLayout& layout,
+              std::shared_ptr<lighting::RsrmKernels> kernels);
+    [[nodiscard]] const std::shared_ptr<lighting::RsrmKernels>& kernels() const { return kernels_; }
 
     [[nodiscard]] bool empty() const { return lights_.empty(); }
     /// The name of a sky that stands in the environment's place; empty if none does.

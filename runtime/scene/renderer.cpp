@@ -260,7 +260,7 @@ void Renderer::setEnvironment(std::string source, lighting::Cubemap base) {
 
 void Renderer::setLights(std::vector<lighting::DayLight> lights,
                          const lighting::RsrmLayout& layout) {
-    state_->lights = GpuLights(std::move(lights), layout);
+    state_->lights = GpuLights(std::move(lights), layout, state_->lights.kernels());
     state_->shadows = {};
 }
 
@@ -294,7 +294,7 @@ void describeLights(const Scene& scene, const std::vector<DrawItem>& items, doub
 plan::PlanInput planInput(const Scene& scene, const View& view, const RenderSettings& settings,
                           plan::EnvironmentView environment,
                           const std::vector<lighting::DayLight>& lights) {
-    GpuLights described(lights, lighting::kRsrm);
+    GpuLights described(lights, lighting::kRsrm, nullptr); // it bakes nothing
     ShadowMaps shadows;
     plan::PlanInput input =
         planInput(scene, view, settings, beside(std::move(environment), described));
