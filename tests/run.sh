@@ -14,7 +14,8 @@ samples/demo.sh uses), and runs every kind of test but the benchmarks; then the 
 input again under the address and undefined-behaviour sanitizers, in build-asan/.
 
   --quick   label unit only, no sanitizers: the inner loop
-  --long    sanitizers over unit, numerics, parity and gl as well, ten times the fuzzing, clang-tidy
+  --long    sanitizers over unit, numerics, parity and gl as well, ten times the fuzzing, clang-tidy;
+            Khronos' glTF validator, where npm can install it
   --help    this text
 
 One label alone: ctest --test-dir build -L parity
@@ -148,6 +149,10 @@ fi
 build build all || stop "the build failed"
 say "built"
 
+if [ $mode = long ] && command -v npm >/dev/null; then
+    npm install --silent --no-audit --no-fund --prefix build/validator gltf-validator@2.0.0-dev.3.10 ||
+        say "gltf-validator was not installed; its test is a skip"
+fi
 for label in house unit numerics parity plan gl golden cli; do
     count $label build -L "^$label\$"
 done

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/check_scene.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -90,6 +91,52 @@ Json names(const std::vector<T>& things) {
     return json;
 }
 
+const char* pathName(io::AnimationPath path) {
+    switch (path) {
+    case io::AnimationPath::Translation:
+        return "translation";
+    case io::AnimationPath::Rotation:
+        return "rotation";
+    case io::AnimationPath::Scale:
+        return "scale";
+    case io::AnimationPath::Weights:
+        break;
+    }
+    return "weights";
+}
+
+const char* interpolationName(io::Interpolation interpolation) {
+    switch (interpolation) {
+    case io::Interpolation::Step:
+        return "STEP";
+    case io::Interpolation::Linear:
+        return "LINEAR";
+    case io::Interpolation::CubicSpline:
+        break;
+    }
+    return "CUBICSPLINE";
+}
+
+/// Of the whole file, whichever scene shows them; nodes are the file's.
+Json animationsJson(const io::GltfFile& scene) {
+    Json json = Json::array();
+    for (const io::GltfAnimation& animation : scene.animations) {
+        Json channels = Json::array();
+        float last = 0.0f; // [s]
+        for (const io::GltfAnimationChannel& channel : animation.channels) {
+            const auto& sampler = animation.samplers[static_cast<std::size_t>(channel.sampler)];
+            last = sampler.times.empty() ? last : std::max(last, sampler.times.back());
+            channels.push_back({{"node", channel.node},
+                                {"path", pathName(channel.path)},
+                                {"interpolation", interpolationName(sampler.interpolation)},
+                                {"keys", sampler.times.size()}});
+        }
+        json.push_back(
+            {{"name", animation.name}, {"duration", last}, {"channels", std::move(channels)}});
+    }
+    return json;
+}
+
 /// Of the default scene, in metres of the world; null where nothing has a place.
 Json boundsJson(io::GltfFile&& file) {
     const scene::Bounds bounds = scene::buildScene(std::move(file)).worldBounds();
@@ -125,6 +172,7 @@ void describeScene(io::GltfFile&& scene, Json& json) {
     json["lights"] = scene.lights.size();
     json["lightNames"] = names(scene.lights);
     json["animations"] = scene.animations.size();
+    json["animationList"] = animationsJson(scene);
     json["skins"] = scene.skins.size();
     json["bufferBytes"] = scene.bufferBytes;
     json["extensionsUsed"] = extensionsJson(scene.extensionsUsed);

@@ -2,6 +2,7 @@
 //
 // Buffers and side files of a document: data: URIs (RFC 2397), the GLB's binary chunk, and files
 // below the asset root.
+#include <algorithm>
 #include <array>
 #include <system_error>
 
@@ -72,14 +73,39 @@ std::string percentDecoded(std::string_view text) {
     return decoded;
 }
 
+/// RFC 2397: nothing, or TYPE/SUBTYPE, then parameters ";NAME=VALUE". What these say is not asked.
+bool isMediaType(std::string_view text) {
+    for (bool first = true; first || !text.empty(); first = false) {
+        const std::size_t end = std::min(text.find(';', 1), text.size());
+        const std::string_view part = text.substr(0, end);
+        const bool parameter = part.starts_with(';');
+        const std::size_t mark = part.find(parameter ? '=' : '/');
+        const bool whole = mark != std::string_view::npos && mark > (parameter ? 1u : 0u) &&
+                           mark + 1 < part.size();
+        if (!whole && !(first && part.empty())) {
+            return false;
+        }
+        text.remove_prefix(end);
+    }
+    return true;
+}
+
 core::Result<Bytes> decodeDataUri(std::string_view uri, std::size_t maxBytes) {
     const std::size_t comma = uri.find(',');
     if (comma == std::string_view::npos) {
         return core::refused("data: URI has no comma before its data");
     }
     const std::string_view data = uri.substr(comma + 1);
+    constexpr std::string_view kScheme = "data:";
+    constexpr std::string_view kBase64 = ";base64";
+    std::string_view mediaType = uri.substr(kScheme.size(), comma - kScheme.size());
+    const bool base64 = mediaType.ends_with(kBase64);
+    mediaType.remove_suffix(base64 ? kBase64.size() : 0);
+    if (!isMediaType(mediaType)) {
+        return core::refused("data: URI has no valid media type before its comma (RFC 2397)");
+    }
     Bytes bytes;
-    if (uri.substr(0, comma).ends_with(";base64")) {
+    if (base64) {
         if (!decodeBase64(data, bytes)) {
             return core::refused("data: URI is not valid base64");
         }

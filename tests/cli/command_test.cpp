@@ -183,6 +183,83 @@ TEST(CommandLine, FramesAreNumbered) {
     EXPECT_TRUE(std::filesystem::exists(folder.file("f0001.png")));
 }
 
+/// A triangle that slides one to the right in two seconds; a second animation steps its scale. The
+/// buffer: times 0 and 2; translations (0, 0, 0) and (1, 0, 0); scales (1, 1, 1) and (2, 2, 2);
+/// corners (0, 0, 0), (1, 0, 0), (0, 1, 0). Floats, little-endian.
+std::string movingScene(const TemporaryFolder& folder) {
+    const float numbers[] = {0, 2, 0, 0, 0, 1, 0, 0, 1, 1, 1, 2, 2, 2, 0, 0, 0, 1, 0, 0, 0, 1, 0};
+    std::ofstream(folder.file("moving.bin"), std::ios::binary)
+        .write(reinterpret_cast<const char*>(numbers), sizeof numbers);
+    const std::string path = folder.file("moving.gltf");
+    std::ofstream(path) << R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 3}}]}],
+        "buffers": [{"uri": "moving.bin", "byteLength": 92}],
+        "bufferViews": [{"buffer": 0, "byteLength": 56}, {"buffer": 0, "byteOffset": 56, "byteLength": 36, "target": 34962}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [2]},
+            {"bufferView": 0, "byteOffset": 8, "componentType": 5126, "count": 2, "type": "VEC3"},
+            {"bufferView": 0, "byteOffset": 32, "componentType": 5126, "count": 2, "type": "VEC3"},
+            {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+        "animations": [
+            {"name": "slide", "samplers": [{"input": 0, "output": 1}],
+             "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]},
+            {"name": "grow", "samplers": [{"input": 0, "output": 2, "interpolation": "STEP"}],
+             "channels": [{"sampler": 0, "target": {"node": 0, "path": "scale"}}]}]})";
+    return path;
+}
+
+TEST(CommandLine, CheckTellsWhatMovesAndForHowLong) {
+    const TemporaryFolder folder;
+    const RunResult run = runLodestar({"check", movingScene(folder)});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const nlohmann::json json = nlohmann::json::parse(run.out);
+    EXPECT_EQ(json.at("problems").size(), 0u) << json.at("problems");
+    EXPECT_EQ(json.at("animations"), 2);
+    EXPECT_EQ(json.at("animationList"), nlohmann::json::parse(R"([
+        {"name": "slide", "duration": 2.0, "channels": [
+            {"node": 0, "path": "translation", "interpolation": "LINEAR", "keys": 2}]},
+        {"name": "grow", "duration": 2.0, "channels": [
+            {"node": 0, "path": "scale", "interpolation": "STEP", "keys": 2}]}])"));
+}
+
+TEST(CommandLine, FramesShowTheAnimationAtTheirTimes) {
+    const TemporaryFolder folder;
+    const std::string scene = movingScene(folder);
+    const auto render = [&](const std::string& out, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = {"render",
+                                              scene,
+                                              "-o",
+                                              folder.file(out),
+                                              "--size",
+                                              "32x32",
+                                              "--environment",
+                                              "constant:1,1,1",
+                                              "--no-backdrop"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const RunResult run = runLodestar(arguments);
+        EXPECT_EQ(run.status, 0) << run.err;
+    };
+    // Frame I of a sequence is the picture at --time + I / F, wherever it is drawn.
+    render("s%04d.exr", {"--frames", "3", "--fps", "2", "--time", "0.5"});
+    for (const auto& [frame, time] : {std::pair("s0000.exr", "0.5"), std::pair("s0001.exr", "1"),
+                                      std::pair("s0002.exr", "1.5")}) {
+        render("one.exr", {"--animation", "slide", "--time", time});
+        EXPECT_EQ(readPicture(folder.file(frame)).pixels(),
+                  readPicture(folder.file("one.exr")).pixels())
+            << frame;
+    }
+    EXPECT_NE(readPicture(folder.file("s0000.exr")).pixels(),
+              readPicture(folder.file("s0002.exr")).pixels());
+    // Before the last key a STEP holds the first; a name and a number mean the same animation.
+    render("step.exr", {"--animation", "grow", "--time", "1.9"});
+    render("rest.exr", {"--animation", "1", "--time", "0"});
+    render("grown.exr", {"--animation", "1", "--time", "2"});
+    EXPECT_EQ(readPicture(folder.file("step.exr")).pixels(),
+              readPicture(folder.file("rest.exr")).pixels());
+    EXPECT_NE(readPicture(folder.file("grown.exr")).pixels(),
+              readPicture(folder.file("rest.exr")).pixels());
+}
+
 TEST(CommandLine, ExrHoldsRadianceWhateverTheExposure) {
     const TemporaryFolder folder;
     const std::string scene = emptyScene(folder);

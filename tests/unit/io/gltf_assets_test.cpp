@@ -298,7 +298,6 @@ TEST(GltfAssets, InvalidFilesGiveAPointerOrACountedRepair) {
     // used.
     const std::pair<const char*, const char*> repaired[] = {
         {"invalid_elements_float.gltf", ""},
-        {"invalid_uri_data.gltf", ""},
         {"spot_invalid_angles.gltf", "inner"},
         {"invalid_image_data.gltf", "white"},
         {"unresolved_basecolor.gltf", "texture"}};

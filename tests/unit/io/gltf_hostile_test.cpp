@@ -178,6 +178,10 @@ const Patch kPatches[] = {
     {"buffer of 2^53", "/buffers/0/byteLength", "9007199254740991", "/buffers/0/byteLength"},
     {"buffer of bad base64", "/buffers/0/uri", "\"data:application/octet-stream;base64,A*==\"",
      "/buffers/0/uri"},
+    {"buffer of an empty parameter", "/buffers/0/uri",
+     "\"data:application/octet-stream;;base64,AAAA\"", "/buffers/0/uri"},
+    {"buffer of half a media type", "/buffers/0/uri", "\"data:octet-stream;base64,AAAA\"",
+     "/buffers/0/uri"},
     {"buffer without comma", "/buffers/0/uri", "\"data:base64\"", "/buffers/0/uri"},
     {"buffer from the network", "/buffers/0/uri", "\"http://example.com/a.bin\"", "/buffers/0/uri"},
 };
