@@ -5,7 +5,7 @@
 # openimageio-tools is not used, but the CMake package of libopenimageio-dev refuses to load without it.
 LODESTAR_PACKAGES_build="cmake ninja-build g++ pkg-config ca-certificates
     libglm-dev libopenimageio-dev openimageio-tools libtinygltf-dev nlohmann-json3-dev libcli11-dev
-    zlib1g-dev libepoxy-dev libegl-dev libgl-dev libopengl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
+    zlib1g-dev libpng-dev libjpeg62-turbo-dev libepoxy-dev libegl-dev libgl-dev libopengl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
     libglfw3-dev libimgui-dev"
 # blender-data holds the panoramas that accuracy is measured on; the viewer's window is tested on a
 # virtual display by synthetic input (xvfb to imagemagick).

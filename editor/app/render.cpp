@@ -90,6 +90,7 @@ core::Result<void> renderAll(const RenderOptions& options, OutputKind kind, Load
     if (!renderer) {
         return renderer.error();
     }
+    loaded.scene.images.clear();
     if (!loaded.light.environment.base.empty()) {
         (*renderer)->setEnvironment(loaded.light.name, std::move(loaded.light.environment.base));
     }

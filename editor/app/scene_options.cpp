@@ -219,7 +219,7 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
 }
 
 core::Result<OpenedFile> openFile(const SceneOptions& options, std::optional<int> number) {
-    auto file = io::loadGltf(options.scene, {options.assetRoot, true});
+    auto file = io::loadGltf(options.scene, {options.assetRoot});
     if (!file) {
         return core::inFile(file.error(), options.scene);
     }

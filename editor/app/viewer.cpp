@@ -79,6 +79,7 @@ core::Result<Viewer::Document> Viewer::documentOf(std::string path, scene::Scene
         return core::inFile(renderer.error(), document.path);
     }
     document.renderer = std::move(*renderer);
+    document.scene->images.clear();
     document.bounds = document.scene->worldBounds();
     return document;
 }

@@ -11,6 +11,7 @@
 #include <epoxy/gl.h>
 
 #include "core/half.h"
+#include "lodestar/display.glsl"
 
 namespace lodestar::gl {
 namespace {
@@ -91,6 +92,20 @@ std::size_t uploadLevel(const lighting::Cubemap& map, int level, bool half, floa
     return texels.size() * (half ? 8u : 16u);
 }
 
+/// sRGB samples as linear ones of as many bits; alpha is kept.
+core::Texels linear(const core::Texels& encoded) {
+    core::Texels result(encoded.width(), encoded.height(), encoded.depth());
+    for (int y = 0; y < encoded.height(); ++y) {
+        for (int x = 0; x < encoded.width(); ++x) {
+            for (int c = 0; c < 3; ++c) {
+                result.set(x, y, c, shader::lodestar_linearFromSrgb(encoded.value(x, y, c)));
+            }
+            result.set(x, y, 3, encoded.value(x, y, 3));
+        }
+    }
+    return result;
+}
+
 } // namespace
 
 Texture::Texture(Device& device, unsigned target) : device_(&device), target_(target) {
@@ -146,20 +161,21 @@ unsigned Texture::release() {
     return std::exchange(id_, 0u);
 }
 
-core::Result<Texture> Texture::make2D(Device& device, const core::Image& image,
+core::Result<Texture> Texture::make2D(Device& device, const core::Texels& texels,
                                       TexelEncoding encoding, const SamplerState& sampler,
                                       const char* label) {
-    LODESTAR_EXPECT(image.channels() == 4 && !image.empty(), "a 2-D texture takes 4 channels");
-    std::vector<std::uint8_t> texels(image.pixels().size());
-    std::transform(image.pixels().begin(), image.pixels().end(), texels.begin(), [](float value) {
-        return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
-    });
+    LODESTAR_EXPECT(!texels.empty(), "a 2-D texture has texels");
+    const bool wide = texels.depth() == core::SampleDepth::Bits16;
+    const bool srgb = encoding == TexelEncoding::Srgb;
+    const core::Texels decoded = wide && srgb ? linear(texels) : core::Texels();
+    const std::vector<unsigned char>& bytes = decoded.empty() ? texels.bytes() : decoded.bytes();
     Texture texture(device, GL_TEXTURE_2D);
-    texture.width_ = image.width();
+    texture.width_ = texels.width();
     glBindTexture(GL_TEXTURE_2D, texture.id_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTexImage2D(GL_TEXTURE_2D, 0, encoding == TexelEncoding::Srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8,
-                 image.width(), image.height(), 0, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
+    const GLint format = wide ? GL_RGBA16 : srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8;
+    glTexImage2D(GL_TEXTURE_2D, 0, format, texels.width(), texels.height(), 0, GL_RGBA,
+                 wide ? GL_UNSIGNED_SHORT : GL_UNSIGNED_BYTE, bytes.data());
     if (auto allocated = checkAllocation(label); !allocated) {
         return allocated.error();
     }
@@ -168,17 +184,18 @@ core::Result<Texture> Texture::make2D(Device& device, const core::Image& image,
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER,
                     sampler.magnifyLinear ? GL_LINEAR : GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, glMinification(sampler));
-    texture.bytes_ = texels.size();
+    const std::size_t count = bytes.size() / (wide ? 8 : 4);
+    texture.bytes_ = bytes.size();
     if (sampler.mipmapped) {
         glGenerateMipmap(GL_TEXTURE_2D);
-        texture.bytes_ += texels.size() / 3;
+        texture.bytes_ += bytes.size() / 3;
         ++device.counters().passes;
-        device.counters().texelsWritten += texels.size() / 12;
+        device.counters().texelsWritten += count / 3;
     }
     setLabel(device, texture.id_, label);
     ++device.counters().uploads;
-    device.counters().uploadBytes += texels.size();
-    device.counters().texelsWritten += texels.size() / 4;
+    device.counters().uploadBytes += bytes.size();
+    device.counters().texelsWritten += count;
     device.counters().textureBytes += texture.bytes_;
     return texture;
 }

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/image.h"
 #include "core/result.h"
+#include "core/texels.h"
 #include "gl/device.h"
 #include "lighting/cubemap.h"
 
@@ -26,7 +26,7 @@ struct SamplerState {
     bool mipLinear = true;
 };
 
-/// What 8-bit texels mean.
+/// What texels mean.
 enum class TexelEncoding { Linear, Srgb };
 
 /// How the texels of an array lie in memory.
@@ -44,8 +44,10 @@ public:
     Texture& operator=(Texture&& other) noexcept;
     ~Texture();
 
-    /// An 8-bit RGBA texture of an image with 4 channels in [0, 1], mipmapped as the sampler says.
-    [[nodiscard]] static core::Result<Texture> make2D(Device& device, const core::Image& image,
+    /// An RGBA texture of the texels' depth, mipmapped as the sampler says. It gives linear values;
+    /// sRGB of 8 bits is decoded by the GPU, of 16 bits, which it does not know, here.
+    /// @pre not empty
+    [[nodiscard]] static core::Result<Texture> make2D(Device& device, const core::Texels& texels,
                                                       TexelEncoding encoding,
                                                       const SamplerState& sampler,
                                                       const char* label);

@@ -30,7 +30,7 @@ bool goOn(const GltfProblems& problems, bool all) {
     return all || !problems.refused();
 }
 
-void convert(GltfContext& context, const SideFiles& files, bool decodeImages, bool all) {
+void convert(GltfContext& context, const SideFiles& files, bool all) {
     listExtensions(context);
     for (const tinygltf::Buffer& buffer : context.model.buffers) {
         context.file.bufferBytes += buffer.data.size();
@@ -44,10 +44,8 @@ void convert(GltfContext& context, const SideFiles& files, bool decodeImages, bo
             return;
         }
     }
-    loadImages(context, files, decodeImages);
-    if (decodeImages) {
-        checkEnvironmentFaces(context);
-    }
+    loadImages(context, files, all);
+    checkEnvironmentFaces(context);
 }
 
 /// The document and its buffers, checked. Nothing where nothing more can be said.
@@ -103,7 +101,7 @@ core::Result<GltfFile> load(const std::filesystem::path& path, const GltfOptions
     }
     GltfFile file;
     GltfContext context{source->document, *model, file, problems};
-    convert(context, *files, options.decodeImages, all);
+    convert(context, *files, all);
     if (problems.refused()) {
         return problems.first();
     }

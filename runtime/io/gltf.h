@@ -20,9 +20,9 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "core/image.h"
 #include "core/result.h"
 #include "core/tally.h"
+#include "core/texels.h"
 #include "io/gltf_problems.h"
 
 namespace lodestar::io {
@@ -242,9 +242,9 @@ struct GltfFile {
     std::vector<GltfMesh> meshes;
     std::vector<GltfMaterial> materials;
     std::vector<GltfTexture> textures;
-    std::vector<core::Image>
-        images; ///< 4 channels, as stored; 1x1 white where decoding failed (counted)
-    std::vector<GltfImageInfo> imageInfos; ///< as many as the file's images, decoded or not
+    /// As stored; 1x1 white where decoding failed (counted), empty where nothing shows the image.
+    std::vector<core::Texels> images;
+    std::vector<GltfImageInfo> imageInfos; ///< as many; without sizes where nothing was decoded
     std::vector<GltfCamera> cameras;
     std::vector<GltfLight> lights;
     std::vector<GltfEnvironment> environments;
@@ -264,7 +264,6 @@ struct GltfFile {
 
 struct GltfOptions {
     std::filesystem::path assetRoot; ///< empty: the file's own folder
-    bool decodeImages = true;        ///< false leaves images empty, and their infos without sizes
 };
 
 /// Loads .gltf or .glb. @errors InputRefused with the JSON pointer or byte of what is wrong
@@ -277,8 +276,8 @@ struct GltfCheck {
     GltfProblems problems;
 };
 
-/// The steps of loadGltf, which go on behind a problem as far as is safe, and the standard's rules
-/// that loading can do without.
+/// The steps of loadGltf, which go on behind a problem as far as is safe, with the images that
+/// nothing shows, and the standard's rules that loading can do without.
 [[nodiscard]] GltfCheck checkGltf(const std::filesystem::path& path,
                                   const GltfOptions& options = {});
 

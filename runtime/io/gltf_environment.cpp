@@ -19,14 +19,13 @@ constexpr float kLeastAlpha = 1.0f / 255.0f;
 constexpr int kLookups = 4;
 
 /// A face's radiance: colours / alpha [RGBD], times the intensity.
-core::Image radianceOf(const core::Image& stored, float intensity) {
+core::Image radianceOf(const core::Texels& stored, float intensity) {
     core::Image face(stored.width(), stored.height(), 3);
     for (int y = 0; y < stored.height(); ++y) {
         for (int x = 0; x < stored.width(); ++x) {
-            const float* from = stored.at(x, y);
-            const float scale = intensity / std::max(from[3], kLeastAlpha);
+            const float scale = intensity / std::max(stored.value(x, y, 3), kLeastAlpha);
             for (int c = 0; c < 3; ++c) {
-                face.at(x, y)[c] = scale * shader::lodestar_linearFromSrgb(from[c]);
+                face.at(x, y)[c] = scale * shader::lodestar_linearFromSrgb(stored.value(x, y, c));
             }
         }
     }
@@ -40,7 +39,7 @@ core::Result<void> checkFaces(const GltfFile& file, std::size_t environment) {
     const std::array<int, 6>& faces = file.environments[environment].faces;
     const int side = file.images[static_cast<std::size_t>(faces[0])].width();
     for (const int face : faces) {
-        const core::Image& stored = file.images[static_cast<std::size_t>(face)];
+        const core::Texels& stored = file.images[static_cast<std::size_t>(face)];
         if (stored.width() != side || stored.height() != side || side < 1) {
             return core::refused("the six faces must be square and of one size",
                                  detail::pointer(kLights, environment) + "/specularImages/0");
@@ -110,7 +109,7 @@ core::Result<LoadedEnvironment> environmentOf(const GltfFile& file, int environm
     loaded.layout = EnvironmentLayout::SixFiles;
     std::array<core::Image, 6> faces;
     for (std::size_t face = 0; face < 6; ++face) {
-        const core::Image& stored = file.images[static_cast<std::size_t>(light.faces[face])];
+        const core::Texels& stored = file.images[static_cast<std::size_t>(light.faces[face])];
         faces[face] = radianceOf(stored, light.intensity);
         lighting::repairRadiance(faces[face], loaded.warnings);
     }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// A document's images. A missing or damaged one is no reason to refuse a scene: it becomes one
-// white texel, counted with its reason.
+// A document's images: those that something shows, decoded side by side. A missing or damaged one
+// is no reason to refuse a scene: it becomes one white texel, counted with its reason.
 #include <algorithm>
+#include <atomic>
+#include <thread>
 
 #include "io/gltf_internal.h"
 #include "io/image_file.h"
@@ -10,10 +12,10 @@
 namespace lodestar::io::detail {
 namespace {
 
-core::Image white() {
-    core::Image image(1, 1, 4);
-    std::fill(image.pixels().begin(), image.pixels().end(), 1.0f);
-    return image;
+core::Texels white() {
+    core::Texels texels(1, 1);
+    texels.bytes().assign(4, 255);
+    return texels;
 }
 
 core::Error tooMuch(const std::string& at) {
@@ -37,61 +39,161 @@ core::Result<Bytes> encodedImage(const GltfContext& context, const Json& json,
     return files.read(uri->get_ref<const std::string&>(), kMaxFileBytes);
 }
 
+/// By image: whether a texture or an image-based light shows it.
+std::vector<bool> shownImages(const GltfFile& file, std::size_t count) {
+    std::vector<bool> shown(count);
+    const auto show = [&](int image) {
+        if (image != kNone && static_cast<std::size_t>(image) < count) {
+            shown[static_cast<std::size_t>(image)] = true;
+        }
+    };
+    for (const GltfTexture& texture : file.textures) {
+        show(texture.image);
+    }
+    for (const GltfEnvironment& environment : file.environments) {
+        std::for_each(environment.faces.begin(), environment.faces.end(), show);
+    }
+    return shown;
+}
+
+/// An image on its way to texels.
+struct Encoded {
+    std::size_t image = 0;
+    Bytes bytes;
+    core::Result<core::Texels> texels = core::Texels();
+};
+
+/// Reads and measures the images in order, within the limits; nothing where one is exceeded.
+class Reader {
+public:
+    Reader(GltfContext& context, const SideFiles& files) : context_(context), files_(files) {}
+
+    /// False where the images' limit is exceeded, which is refused then.
+    bool read(std::size_t i) {
+        const std::string at = pointer("/images", i);
+        if (!context_.problems.clean(at)) {
+            context_.file.images[i] = white();
+            return true;
+        }
+        core::Result<Bytes> bytes = encodedImage(context_, context_.document["images"][i], files_);
+        if (!bytes) {
+            useWhite(i, bytes.error());
+            return true;
+        }
+        const bool few = encodedLeft_.spend(bytes->size());
+        const core::Result<ImageInfo> info = imageInfo(*bytes);
+        if (few && !info) {
+            useWhite(i, info.error());
+            return true;
+        }
+        if (!few || !decodedLeft_.spend(static_cast<std::size_t>(info->width) *
+                                        static_cast<std::size_t>(info->height) *
+                                        (info->bits == 8 ? 4 : 8))) {
+            context_.problems.refuse(tooMuch(at));
+            return false;
+        }
+        describe(i, *info);
+        encoded_.push_back({i, std::move(*bytes)});
+        return true;
+    }
+
+    /// Reads an image that nothing shows, for what is wrong with it, and keeps nothing.
+    void tryOut(std::size_t i) {
+        const std::string at = pointer("/images", i);
+        if (!context_.problems.clean(at)) {
+            return;
+        }
+        const auto report = [&](const core::Error& error) {
+            context_.problems.repaired(
+                "image cannot be read, and nothing shows it: " + error.message(), at);
+        };
+        const core::Result<Bytes> bytes =
+            encodedImage(context_, context_.document["images"][i], files_);
+        if (!bytes) {
+            report(bytes.error());
+            return;
+        }
+        if (const core::Result<ImageInfo> info = imageInfo(*bytes)) {
+            describe(i, *info);
+        }
+        if (const core::Result<core::Texels> texels = decodeTexels(*bytes); !texels) {
+            report(texels.error());
+        }
+    }
+
+    /// Decodes on as many threads as there are processors, and tells what failed in order.
+    void decode() {
+        std::atomic<std::size_t> next{0};
+        const auto work = [&] {
+            for (std::size_t i = next++; i < encoded_.size(); i = next++) {
+                encoded_[i].texels = decodeTexels(encoded_[i].bytes);
+                encoded_[i].bytes = {};
+            }
+        };
+        std::vector<std::jthread> helpers;
+        const std::size_t processors =
+            std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kMaxThreads);
+        for (std::size_t i = 1; i < std::min(processors, encoded_.size()); ++i) {
+            helpers.emplace_back(work);
+        }
+        work();
+        helpers.clear();
+        for (Encoded& image : encoded_) {
+            if (image.texels) {
+                context_.file.images[image.image] = std::move(*image.texels);
+            } else {
+                useWhite(image.image, image.texels.error());
+            }
+        }
+    }
+
+private:
+    /// Each thread holds one image's working memory.
+    static constexpr std::size_t kMaxThreads = 8;
+
+    void describe(std::size_t i, const ImageInfo& info) {
+        GltfImageInfo& described = context_.file.imageInfos[i];
+        described.format = info.format;
+        described.width = info.width;
+        described.height = info.height;
+        described.channels = info.channels;
+    }
+
+    void useWhite(std::size_t i, const core::Error& error) {
+        context_.file.warnings.add("image " + std::to_string(i) +
+                                   " taken as white: " + error.message());
+        context_.file.images[i] = white();
+        context_.problems.repaired("image taken as white: " + error.message(),
+                                   pointer("/images", i));
+    }
+
+    GltfContext& context_;
+    const SideFiles& files_;
+    Budget encodedLeft_{kMaxImageBytes};
+    Budget decodedLeft_{kMaxImageBytes};
+    std::vector<Encoded> encoded_;
+};
+
 } // namespace
 
-void loadImages(GltfContext& context, const SideFiles& files, bool decode) {
-    Budget encodedLeft(kMaxImageBytes);
-    Budget decodedLeft(kMaxImageBytes);
-    for (std::size_t i = 0; i < memberSize(context.document, "images"); ++i) {
-        GltfImageInfo& described = context.file.imageInfos.emplace_back();
+void loadImages(GltfContext& context, const SideFiles& files, bool all) {
+    const std::size_t count = memberSize(context.document, "images");
+    context.file.images.resize(count);
+    context.file.imageInfos.resize(count);
+    const std::vector<bool> shown = shownImages(context.file, count);
+    Reader reader(context, files);
+    for (std::size_t i = 0; i < count; ++i) {
         if (const Json* name = member(context.document["images"][i], "name")) {
-            described.name = name->get<std::string>();
+            context.file.imageInfos[i].name = name->get<std::string>();
         }
-        if (!decode) {
-            context.file.images.emplace_back();
-            continue;
-        }
-        const std::string at = pointer("/images", i);
-        const auto useWhite = [&](const core::Error& error) {
-            context.file.warnings.add("image " + std::to_string(i) +
-                                      " taken as white: " + error.message());
-            context.file.images.push_back(white());
-            context.problems.repaired("image taken as white: " + error.message(), at);
-        };
-        if (!context.problems.clean(at)) {
-            context.file.images.push_back(white());
-            continue;
-        }
-        core::Result<Bytes> bytes = encodedImage(context, context.document["images"][i], files);
-        if (!bytes) {
-            useWhite(bytes.error());
-            continue;
-        }
-        if (!encodedLeft.spend(bytes->size())) {
-            context.problems.refuse(tooMuch(at));
+        if (shown[i] && !reader.read(i)) {
             return;
         }
-        core::Result<ImageInfo> info = imageInfo(*bytes);
-        if (!info) {
-            useWhite(info.error());
-            continue;
+        if (!shown[i] && all) {
+            reader.tryOut(i);
         }
-        described.format = info->format;
-        described.width = info->width;
-        described.height = info->height;
-        described.channels = info->channels;
-        if (!decodedLeft.spend(static_cast<std::size_t>(info->width) *
-                               static_cast<std::size_t>(info->height) * 4 * sizeof(float))) {
-            context.problems.refuse(tooMuch(at));
-            return;
-        }
-        core::Result<DecodedImage> image = decodeImage(*bytes, 4);
-        if (!image) {
-            useWhite(image.error());
-            continue;
-        }
-        context.file.images.push_back(std::move(image->image));
     }
+    reader.decode();
 }
 
 } // namespace lodestar::io::detail

@@ -33,7 +33,7 @@ inline constexpr int kMaxNodeDepth = 256;
 inline constexpr std::size_t kMaxBufferBytes = std::size_t{1} << 30;
 /// Decoded vertices and indices of one document, together.
 inline constexpr std::size_t kMaxGeometryBytes = std::size_t{512} << 20;
-/// Images of one document as float pixels, together; as much again may be read in encoded form.
+/// Images of one document as texels, together; as much again may be read in encoded form.
 inline constexpr std::size_t kMaxImageBytes = std::size_t{2} << 30;
 /// Elements of an accessor that has no data (all zeros).
 inline constexpr std::size_t kMaxZeroElements = std::size_t{1} << 20;
@@ -226,7 +226,8 @@ void convertCameras(GltfContext& context);
 void convertLights(GltfContext& context);
 void convertNodes(GltfContext& context);
 void convertScenes(GltfContext& context);
-void loadImages(GltfContext& context, const SideFiles& files, bool decode);
+/// @param all tries the images that nothing shows, too
+void loadImages(GltfContext& context, const SideFiles& files, bool all);
 /// Refuses image-based lights that a scene names and whose faces make no cube. @pre images are
 /// decoded
 void checkEnvironmentFaces(GltfContext& context);

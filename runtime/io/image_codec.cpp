@@ -136,18 +136,11 @@ core::Result<core::Image> decodeWithLibrary(const Bytes& bytes, const ImageInfo&
             return core::Error{
                 core::ErrorCode::Internal, "OpenImageIO was built without " + info.format, {}, {}};
         }
-        // The JPEG reader takes no proxy but the library's own, whose whole buffer it reads in
-        // order.
         MemoryFile checked(bytes);
-        OIIO::Filesystem::IOMemReader plain(bytes.data(), bytes.size());
         OIIO::ImageSpec config;
         config.attribute("oiio:UnassociatedAlpha", 1);
         OIIO::ImageSpec spec;
-        if (info.format == "jpeg") {
-            input->set_ioproxy(&plain);
-        } else {
-            input->set_ioproxy(&checked);
-        }
+        input->set_ioproxy(&checked);
         if (!input->open("image." + info.format, spec, config)) {
             return undecodable(*input, "its header is damaged");
         }

@@ -15,7 +15,7 @@ namespace lodestar::io {
 
 /// The module's functions.
 struct ImageCodec {
-    /// Pixels of an EXR, PNG or JPEG whose header has been checked. @errors InputRefused
+    /// Pixels of an EXR whose header has been checked. @errors InputRefused
     core::Result<core::Image> (*decode)(const Bytes& bytes, const ImageInfo& info);
     /// A whole file. @param format "openexr" or "png"  @errors OutputFailed
     core::Result<Bytes> (*encode)(const core::Image& image, const std::string& format);

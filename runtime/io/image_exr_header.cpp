@@ -222,8 +222,12 @@ core::Result<ImageHeader> exrHeader(const Bytes& bytes) {
         }
         if (i == 0) {
             const int channels = static_cast<int>(std::min<std::size_t>(part->channels.size(), 4));
-            header.info = {"openexr", static_cast<int>(part->width), static_cast<int>(part->height),
-                           channels, part->layout};
+            header.info = {"openexr",
+                           static_cast<int>(part->width),
+                           static_cast<int>(part->height),
+                           channels,
+                           32,
+                           part->layout};
             header.channelNames = part->channels;
         }
     }

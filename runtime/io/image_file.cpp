@@ -84,26 +84,50 @@ core::Image withChannels(const core::Image& image, int channels) {
     return result;
 }
 
-core::Result<core::Image> decodeStripped(core::Result<detail::StrippedImage> stripped,
-                                         ImageInfo& info) {
+core::Result<core::Texels> decodeStored(Format format, const Bytes& bytes, ImageInfo& info) {
+    const core::Result<detail::StrippedImage> stripped =
+        format == Format::Png ? detail::pngHeader(bytes) : detail::jpegHeader(bytes);
     if (!stripped) {
         return stripped.error();
     }
     info = stripped->header.info;
-    return decodeWithLibrary(stripped->bytes, info);
+    return format == Format::Png ? detail::decodePng(*stripped) : detail::decodeJpeg(*stripped);
+}
+
+/// Texels as floats, in the channels that the file has.
+core::Image floatsOf(const core::Texels& texels, int channels) {
+    core::Image image(texels.width(), texels.height(), channels);
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            for (int c = 0; c < channels; ++c) {
+                const bool alpha = channels % 2 == 0 && c + 1 == channels;
+                image.at(x, y)[c] = texels.value(x, y, alpha ? 3 : c);
+            }
+        }
+    }
+    return image;
+}
+
+core::Texels texelsOf(const core::Image& image) {
+    core::Texels texels(image.width(), image.height(), core::SampleDepth::Bits16);
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            for (int c = 0; c < 4; ++c) {
+                texels.set(x, y, c, image.at(x, y)[c]);
+            }
+        }
+    }
+    return texels;
 }
 
 core::Result<core::Image> decodeAs(Format format, const Bytes& bytes, ImageInfo& info) {
-    switch (format) {
-    case Format::Png:
-        return decodeStripped(detail::pngHeader(bytes, true), info);
-    case Format::Jpeg:
-        return decodeStripped(detail::jpegHeader(bytes), info);
-    case Format::Exr:
-    case Format::Hdr:
-        break;
-    case Format::Unknown:
+    if (format == Format::Unknown) {
         return unknownFormat();
+    }
+    if (format == Format::Png || format == Format::Jpeg) {
+        const core::Result<core::Texels> texels = decodeStored(format, bytes, info);
+        return texels ? floatsOf(*texels, info.channels)
+                      : core::Result<core::Image>(texels.error());
     }
     core::Result<ImageHeader> header =
         format == Format::Exr ? detail::exrHeader(bytes) : detail::hdrHeader(bytes);
@@ -133,7 +157,7 @@ core::Result<ImageInfo> imageInfo(const Bytes& bytes) {
     case Format::Hdr:
         return infoOf(detail::hdrHeader(bytes));
     case Format::Png:
-        return infoOf(detail::pngHeader(bytes, false));
+        return infoOf(detail::pngHeader(bytes));
     case Format::Jpeg:
         return infoOf(detail::jpegHeader(bytes));
     case Format::Unknown:
@@ -153,6 +177,16 @@ core::Result<DecodedImage> decodeImage(const Bytes& bytes, int channels) {
     decoded.image = channels == 0 || channels == image->channels() ? std::move(*image)
                                                                    : withChannels(*image, channels);
     return decoded;
+}
+
+core::Result<core::Texels> decodeTexels(const Bytes& bytes) {
+    const Format format = formatOf(bytes);
+    if (format == Format::Png || format == Format::Jpeg) {
+        ImageInfo info;
+        return decodeStored(format, bytes, info);
+    }
+    const core::Result<DecodedImage> decoded = decodeImage(bytes, 4);
+    return decoded ? texelsOf(decoded->image) : core::Result<core::Texels>(decoded.error());
 }
 
 } // namespace lodestar::io

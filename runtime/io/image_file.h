@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Images on disk, through OpenImageIO: EXR, Radiance HDR, PNG, JPEG.
+// Images on disk: EXR through OpenImageIO, Radiance HDR, PNG through libpng, JPEG through libjpeg.
+// Panoramas and renders are float pixels, textures' images are texels of the file's own depth.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include "core/image.h"
 #include "core/result.h"
 #include "core/tally.h"
+#include "core/texels.h"
 #include "io/file.h"
 
 namespace lodestar::io {
@@ -24,6 +26,7 @@ struct ImageInfo {
     int width = 0;
     int height = 0;
     int channels = 0;
+    int bits = 0; ///< of a sample once decoded: 8, 16, or 32 (float)
     DeclaredLayout layout = DeclaredLayout::None;
 };
 
@@ -39,6 +42,11 @@ struct DecodedImage {
 /// most 4)
 /// @errors InputRefused
 [[nodiscard]] core::Result<DecodedImage> decodeImage(const Bytes& bytes, int channels);
+
+/// The same for a texture: texels of 16 bits where the file has more than 8, encoded as in the
+/// file; grey is spread, missing alpha is 1. Floats (EXR, HDR) are clamped to [0, 1].
+/// @errors InputRefused
+[[nodiscard]] core::Result<core::Texels> decodeTexels(const Bytes& bytes);
 
 /// Header only. @errors as decodeImage
 [[nodiscard]] core::Result<ImageInfo> imageInfo(const Bytes& bytes);

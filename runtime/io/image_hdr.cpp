@@ -185,7 +185,7 @@ core::Result<ImageHeader> hdrHeader(const Bytes& bytes) {
                              std::to_string(layout->height) + " pixels it claims");
     }
     ImageHeader header;
-    header.info = {"hdr", layout->width, layout->height, 3, DeclaredLayout::None};
+    header.info = {"hdr", layout->width, layout->height, 3, 32, DeclaredLayout::None};
     return header;
 }
 

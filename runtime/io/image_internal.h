@@ -95,9 +95,12 @@ struct StrippedImage {
     ImageHeader header;
     Bytes bytes;
 };
-/// @param checkPixels whether the compressed data are tried, too
-[[nodiscard]] core::Result<StrippedImage> pngHeader(const Bytes& bytes, bool checkPixels);
+[[nodiscard]] core::Result<StrippedImage> pngHeader(const Bytes& bytes);
 [[nodiscard]] core::Result<StrippedImage> jpegHeader(const Bytes& bytes);
+
+/// Texels, encoded as in the file. @errors InputRefused
+[[nodiscard]] core::Result<core::Texels> decodePng(const StrippedImage& png);
+[[nodiscard]] core::Result<core::Texels> decodeJpeg(const StrippedImage& jpeg);
 
 /// Pixels of a Radiance file, 3 channels.
 [[nodiscard]] core::Result<core::Image> decodeHdr(const Bytes& bytes);

@@ -48,8 +48,9 @@ core::Result<ImageInfo> readFrame(ByteReader reader) {
     if (!size) {
         return size.error();
     }
-    return ImageInfo{"jpeg", static_cast<int>(width), static_cast<int>(height),
-                     components == 1 ? 1 : 3, DeclaredLayout::None};
+    return ImageInfo{
+        "jpeg", static_cast<int>(width), static_cast<int>(height), components == 1 ? 1 : 3,
+        8,      DeclaredLayout::None};
 }
 
 /// The end of a scan's entropy-coded data: the next marker that is neither stuffing nor restart.

@@ -125,9 +125,9 @@ core::Result<void> GpuScene::addTexture(gl::Device& device, const Scene& scene,
         return {};
     }
     const io::GltfTexture& texture = scene.textures[static_cast<std::size_t>(reference.texture)];
-    core::Image white(1, 1, 4);
-    white.pixels().assign(4, 1.0f);
-    const core::Image& image =
+    core::Texels white(1, 1);
+    white.bytes().assign(4, 255);
+    const core::Texels& image =
         texture.image == io::kNone ? white : scene.images[static_cast<std::size_t>(texture.image)];
     const std::string label = "texture " + std::to_string(reference.texture);
     auto made = gl::Texture::make2D(device, image, encoding, samplerOf(texture), label.c_str());

@@ -85,7 +85,7 @@ struct Scene {
     Bounds reach; ///< what worldBounds() holds besides the present pose; empty at first
     std::vector<io::GltfMaterial> materials;
     std::vector<io::GltfTexture> textures;
-    std::vector<core::Image> images;
+    std::vector<core::Texels> images; ///< read by Renderer::make; may be emptied after it
     core::Tally warnings;
 
     /// Of everything in its present pose, and `reach`.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "lighting/environment.h"
+#include "lodestar/display.glsl"
 #include "scene/renderer.h"
 #include "support/gl_fixture.h"
 #include "support/shapes.h"
@@ -130,8 +131,11 @@ TEST_F(Rendering, NormalMapTiltsTowardsItsColours) {
         io::GltfMaterial material = testing::blinnPhong({}, glm::vec3(1.0f), 1e7f);
         material.normalTexture.texture = 0;
         io::GltfFile file = testing::fileOf(testing::square(), material);
-        core::Image normals(1, 1, 4);
-        normals.pixels() = {up ? 0.5f : tilt, up ? tilt : 0.5f, tilt, 1.0f};
+        core::Texels normals(1, 1);
+        const float texel[] = {up ? 0.5f : tilt, up ? tilt : 0.5f, tilt, 1.0f};
+        for (int c = 0; c < 4; ++c) {
+            normals.set(0, 0, c, texel[c]);
+        }
         file.images.push_back(normals);
         file.textures.push_back({0, {}, {}, {}, {}, {}});
         const scene::Scene scene = scene::buildScene(std::move(file));
@@ -213,6 +217,33 @@ TEST_F(Rendering, RoughMetalAloneIsLit) {
     }
 }
 
+TEST_F(Rendering, TexturesOfBothDepthsAreDecodedFromSrgb) {
+    // Darker than the darkest step of 8 bits, which is 0 there, and between two steps.
+    const float encoded[] = {0.001f, 0.5f, 0.9f, 1.0f};
+    for (const core::SampleDepth depth : {core::SampleDepth::Bits8, core::SampleDepth::Bits16}) {
+        io::GltfMaterial material;
+        material.unlit = true;
+        material.baseColorTexture.texture = 0;
+        io::GltfFile file = testing::fileOf(testing::square(), material);
+        core::Texels texels(1, 1, depth);
+        for (int c = 0; c < 4; ++c) {
+            texels.set(0, 0, c, encoded[c]);
+        }
+        file.images.push_back(texels);
+        file.textures.push_back({0, {}, {}, {}, {}, {}});
+        const scene::Scene scene = scene::buildScene(std::move(file));
+        auto frame = renderer(scene)->render(testing::frontView(scene), small());
+        ASSERT_TRUE(frame.ok());
+        const float* center = frame->radiance.at(48, 48);
+        for (int c = 0; c < 3; ++c) {
+            const float expected = shader::lodestar_linearFromSrgb(texels.value(0, 0, c));
+            // Half a step of 16 linear bits is 8e-6; of 8 bits the driver's own table, which GL
+            // lets differ by half a step of 8 bits.
+            EXPECT_NEAR(center[c], expected, depth == core::SampleDepth::Bits8 ? 2e-3f : 1e-5f);
+        }
+    }
+}
+
 TEST_F(Rendering, TextureTransformsMoveEachTexture) {
     // Left half black, right half white, moved by half a picture: what was right is left.
     for (const bool moved : {false, true}) {
@@ -223,8 +254,8 @@ TEST_F(Rendering, TextureTransformsMoveEachTexture) {
             material.baseColorTexture.uvTransform = glm::mat3x2(1, 0, 0, 1, 0.5f, 0);
         }
         io::GltfFile file = testing::fileOf(testing::square(), material);
-        core::Image halves(2, 1, 4);
-        halves.pixels() = {0, 0, 0, 1, 1, 1, 1, 1};
+        core::Texels halves(2, 1);
+        halves.bytes() = {0, 0, 0, 255, 255, 255, 255, 255};
         file.images.push_back(halves);
         io::GltfTexture texture;
         texture.image = 0;

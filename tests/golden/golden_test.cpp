@@ -89,8 +89,9 @@ scene::Scene transformed(const Fault& fault) {
         }
     }
     io::GltfFile file = fourOf(square(), materials);
-    core::Image colors(2, 2, 4);
-    colors.pixels() = {1, 0.1f, 0.1f, 1, 0.1f, 1, 0.1f, 1, 0.1f, 0.1f, 1, 1, 0.9f, 0.9f, 0.1f, 1};
+    core::Texels colors(2, 2);
+    // 26 is 0.1, 230 is 0.9 of 255.
+    colors.bytes() = {255, 26, 26, 255, 26, 255, 26, 255, 26, 26, 255, 255, 230, 230, 26, 255};
     file.images.push_back(colors);
     io::GltfTexture texture;
     texture.image = 0;

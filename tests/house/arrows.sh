@@ -32,7 +32,8 @@ third_party='
 ^epoxy/ runtime/gl runtime/platform runtime/scene editor/ui editor/app plugin plugin/hosts
 ^(GL|EGL|GLES[23]|KHR)/ runtime/platform runtime/gl plugin plugin/hosts
 ^OpenImageIO/ runtime/io
-^tiny_gltf runtime/io
+^(png|jpeglib)\.h runtime/io
+^tiny_gltf runtime/io tests
 ^nlohmann/ runtime/io runtime/document editor/app editor/model samples
 ^CLI/ editor/app samples
 ^GLFW/ runtime/platform

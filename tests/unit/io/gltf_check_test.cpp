@@ -177,6 +177,28 @@ TEST(GltfCheck, ASparseIndexCountsWhereItIsUsed) {
     EXPECT_EQ(pointers(used, true).count("/accessors/6/sparse/indices"), 0U);
 }
 
+TEST(GltfCheck, ABrokenImageThatNothingShowsIsNamedAndNotLoaded) {
+    const TemporaryFolder folder;
+    ASSERT_TRUE(io::writeImage(folder / "good.png", core::Image(3, 2, 4)).ok());
+    Json document = testing::triangleDocument();
+    const std::size_t shown = document["images"].size();
+    document["images"].push_back({{"uri", "good.png"}});
+    document["images"].push_back({{"uri", "none.png"}});
+    const std::filesystem::path path = folder.write("x.gltf", testing::documentText(document));
+    const auto file = testing::loadAndCheck(path);
+    ASSERT_TRUE(file.ok()) << file.error().message();
+    EXPECT_TRUE(file->warnings.counts().empty());
+    ASSERT_EQ(file->images.size(), shown + 2);
+    EXPECT_FALSE(file->images[0].empty());
+    EXPECT_TRUE(file->images[shown].empty());
+    EXPECT_EQ(file->imageInfos[shown].width, 0);
+    const io::GltfCheck check = io::checkGltf(path);
+    EXPECT_EQ(check.file->imageInfos[shown].width, 3);
+    EXPECT_TRUE(check.file->images[shown].empty());
+    EXPECT_EQ(pointers(check, true).count("/images/" + std::to_string(shown)), 0U);
+    EXPECT_EQ(pointers(check, true).count("/images/" + std::to_string(shown + 1)), 1U);
+}
+
 TEST(GltfCheck, FacesThatMakeNoCubeAreRefusedWhereASceneNamesThem) {
     const TemporaryFolder folder;
     core::Image wide(2, 1, 4);

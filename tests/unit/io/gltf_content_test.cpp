@@ -399,7 +399,7 @@ TEST(GltfContent, MissingImageIsWhite) {
     auto document = testing::triangleDocument();
     document["images"][0] = {{"uri", "none.png"}};
     const io::GltfFile file = loaded(document);
-    EXPECT_EQ(file.images.at(0).pixels(), (std::vector<float>{1, 1, 1, 1}));
+    EXPECT_EQ(file.images.at(0).bytes(), (io::Bytes{255, 255, 255, 255}));
 }
 
 TEST(GltfContent, BlinnPhongExtras) {

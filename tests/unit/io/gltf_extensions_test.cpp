@@ -178,15 +178,17 @@ TEST(GltfExtensions, ImageBasedLight) {
 }
 
 TEST(GltfExtensions, ImageBasedLightAsACube) {
-    // Six plain faces, +X red 1, the others grey k / 8; RGBD alpha 1/2 doubles, intensity 3
-    // triples.
+    // Six plain faces, +X red 1, the others grey k / 8; RGBD alpha 1/5, which 16 bits hold
+    // exactly, multiplies by five, intensity 3 triples.
     io::GltfFile file;
     for (int face = 0; face < 6; ++face) {
-        core::Image image(2, 2, 4);
-        for (std::size_t i = 0; i < image.pixels().size(); i += 4) {
+        core::Texels image(2, 2, core::SampleDepth::Bits16);
+        for (int i = 0; i < 4; ++i) {
             const float grey = static_cast<float>(face) / 8.0f;
-            const float texel[4] = {face == 0 ? 1.0f : grey, grey, grey, 0.5f};
-            std::copy_n(texel, 4, &image.pixels()[i]);
+            const float texel[4] = {face == 0 ? 1.0f : grey, grey, grey, 0.2f};
+            for (int c = 0; c < 4; ++c) {
+                image.set(i % 2, i / 2, c, texel[c]);
+            }
         }
         file.images.push_back(image);
     }
@@ -200,15 +202,15 @@ TEST(GltfExtensions, ImageBasedLightAsACube) {
         return loaded->base.sampleLevel(direction, 0);
     };
     // sRGB decoding is of single precision.
-    EXPECT_NEAR(red({1, 0, 0}).r, 6.0f, 1e-5f);
+    EXPECT_NEAR(red({1, 0, 0}).r, 15.0f, 1e-5f);
     EXPECT_NEAR(red({1, 0, 0}).g, 0.0f, 1e-5f);
-    EXPECT_LT(red({0, 0, -1}).r, 3.0f);
+    EXPECT_LT(red({0, 0, -1}).r, 7.0f);
     // A quarter turn about +Y takes +X to -Z.
     file.environments[0].rotation = glm::angleAxis(1.57079633f, glm::vec3(0.0f, 1.0f, 0.0f));
-    EXPECT_NEAR(red({0, 0, -1}).r, 6.0f, 1e-4f);
+    EXPECT_NEAR(red({0, 0, -1}).r, 15.0f, 1e-4f);
     EXPECT_NEAR(red({0, 0, -1}).g, 0.0f, 1e-4f);
-    EXPECT_LT(red({1, 0, 0}).r, 3.0f);
-    file.images[3] = core::Image(2, 1, 4);
+    EXPECT_LT(red({1, 0, 0}).r, 7.0f);
+    file.images[3] = core::Texels(2, 1);
     const core::Result<io::LoadedEnvironment> odd = io::environmentOf(file, 0, 8);
     ASSERT_FALSE(odd.ok());
     EXPECT_EQ(odd.error().where, "/extensions/EXT_lights_image_based/lights/0/specularImages/0");

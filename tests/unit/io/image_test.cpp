@@ -209,6 +209,111 @@ TEST(ImageFile, PalettesAndInterlacingAreRead) {
     }
 }
 
+TEST(ImageFile, TexelsKeepTheFilesDepth) {
+    struct Case {
+        const char* name;
+        io::Bytes png;
+        core::SampleDepth depth;
+        std::vector<int> samples; // of the first texel, then of the second
+    };
+    using enum core::SampleDepth;
+    const io::Bytes palette{255, 0, 0, 10, 20, 30};
+    const Case cases[] = {
+        {"8-bit RGB",
+         handMadePng(2, 1, 8, 2, false, {0, 1, 2, 3, 4, 5, 6}),
+         Bits8,
+         {1, 2, 3, 255, 4, 5, 6, 255}},
+        {"8-bit RGBA",
+         handMadePng(2, 1, 8, 6, false, {0, 1, 2, 3, 0, 5, 6, 7, 9}),
+         Bits8,
+         {1, 2, 3, 0, 5, 6, 7, 9}},
+        {"grey",
+         handMadePng(2, 1, 8, 0, false, {0, 7, 200}),
+         Bits8,
+         {7, 7, 7, 255, 200, 200, 200, 255}},
+        {"grey of 2 bits",
+         handMadePng(2, 1, 2, 0, false, {0, 0x90}),
+         Bits8,
+         {170, 170, 170, 255, 85, 85, 85, 255}},
+        {"grey, one shade transparent",
+         handMadePng(2, 1, 8, 0, false, {0, 7, 200}, {}, {0, 200}),
+         Bits8,
+         {7, 7, 7, 255, 200, 200, 200, 0}},
+        {"grey and alpha",
+         handMadePng(2, 1, 8, 4, false, {0, 7, 3, 200, 0}),
+         Bits8,
+         {7, 7, 7, 3, 200, 200, 200, 0}},
+        {"palette",
+         handMadePng(2, 1, 8, 3, false, {0, 1, 0}, palette, {128}),
+         Bits8,
+         {10, 20, 30, 255, 255, 0, 0, 128}},
+        {"16-bit RGB",
+         handMadePng(2, 1, 16, 2, false, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}),
+         Bits16,
+         {258, 772, 1286, 65535, 1800, 2314, 2828, 65535}},
+        {"16-bit grey and alpha",
+         handMadePng(2, 1, 16, 4, false, {0, 1, 2, 3, 4, 0, 9, 255, 254}),
+         Bits16,
+         {258, 258, 258, 772, 9, 9, 9, 65534}},
+    };
+    for (const Case& c : cases) {
+        const core::Result<core::Texels> texels = io::decodeTexels(c.png);
+        ASSERT_TRUE(texels.ok()) << c.name << texels.error().message();
+        ASSERT_EQ(texels->depth(), c.depth) << c.name;
+        const float most = c.depth == Bits8 ? 255.0f : 65535.0f;
+        for (int i = 0; i < 8; ++i) {
+            EXPECT_EQ(texels->value(i / 4, 0, i % 4),
+                      static_cast<float>(c.samples[static_cast<std::size_t>(i)]) / most)
+                << c.name << " sample " << i;
+        }
+    }
+}
+
+TEST(ImageFile, FloatsAsTexelsAreClampedTo16Bits) {
+    core::Image image(1, 1, 4);
+    image.pixels() = {-1.0f, 0.25f, 7.0f, 0.5f};
+    const core::Result<core::Texels> texels =
+        io::decodeTexels(testing::encodedByLibrary(image, "exr", "zip", OIIO::TypeDesc::FLOAT));
+    ASSERT_TRUE(texels.ok());
+    EXPECT_EQ(texels->depth(), core::SampleDepth::Bits16);
+    const float expected[] = {0.0f, 16384.0f / 65535.0f, 1.0f, 32768.0f / 65535.0f};
+    for (int c = 0; c < 4; ++c) {
+        EXPECT_EQ(texels->value(0, 0, c), expected[c]) << c;
+    }
+}
+
+TEST(ImageFile, StoredTexelsAreThoseOfAnotherReader) {
+    const TemporaryFolder folder;
+    int read = 0;
+    for (const testing::Sample& sample : testing::goodImages()) {
+        const bool png = sample.name.rfind("png", 0) == 0;
+        if (!png && sample.name.rfind("jpeg", 0) != 0) {
+            continue;
+        }
+        ++read;
+        const std::filesystem::path path = folder / (png ? "x.png" : "x.jpg");
+        ASSERT_TRUE(io::writeFile(path, sample.bytes.data(), sample.bytes.size()).ok());
+        OIIO::ImageSpec config;
+        config.attribute("oiio:UnassociatedAlpha", 1);
+        const auto input = OIIO::ImageInput::open(path.string(), &config);
+        ASSERT_TRUE(input);
+        const int channels = input->spec().nchannels;
+        std::vector<std::uint16_t> theirs(static_cast<std::size_t>(48 * 24 * channels));
+        ASSERT_TRUE(input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT16, theirs.data()));
+        const core::Result<core::Texels> ours = io::decodeTexels(sample.bytes);
+        ASSERT_TRUE(ours.ok()) << sample.name;
+        for (std::size_t i = 0; i < theirs.size(); ++i) {
+            const int texel = static_cast<int>(i) / channels;
+            ASSERT_EQ(
+                std::lround(ours->value(texel % 48, texel / 48, static_cast<int>(i) % channels) *
+                            65535.0f),
+                theirs[i])
+                << sample.name << " sample " << i;
+        }
+    }
+    EXPECT_EQ(read, 5);
+}
+
 TEST(ImageFile, HdrPixelsAreMantissaTimesPowerOfTwo) {
     std::string text = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n";
     const unsigned char pixels[] = {128, 64, 32, 129, 1, 2, 3, 128, 0, 0, 0, 0, 255, 255, 255, 136};
