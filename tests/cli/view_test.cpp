@@ -141,6 +141,11 @@ protected:
         }
         display_ = std::make_unique<VirtualDisplay>();
         ASSERT_FALSE(display_->name().empty()) << "Xvfb did not start";
+        // A window that is mapped while the manager takes over may be shown by neither.
+        ASSERT_TRUE(soon([] {
+            return output("xdotool get_num_desktops && echo ready").find("ready") !=
+                   std::string::npos;
+        })) << "openbox did not start";
         scene_ = tetrahedron(folder_);
         before_ = std::filesystem::current_path();
         std::filesystem::current_path(folder_.file("."));
