@@ -10,13 +10,13 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <epoxy/gl.h>
 
+#include "bench/shading_front.h"
 #include "gl/buffer.h"
 #include "gl/framebuffer.h"
 #include "gl/program.h"
@@ -26,34 +26,12 @@
 namespace {
 
 using namespace lodestar;
+using namespace lodestar::testing;
 
-constexpr int kSide = 1024;
 constexpr int kCubeWidth = 128;
-
-double cpuMilliseconds() {
-    timespec t{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
-}
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t n = values.size();
-    return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
-
-const char* kVertex = R"(#version 330 core
-void main() {
-    vec2 p = vec2(float((gl_VertexID << 1) & 2), float(gl_VertexID & 2));
-    gl_Position = vec4(p * 2.0 - 1.0, 0.0, 1.0);
-})";
 
 /// A grid of 4x4 balls with exact normals; uniforms so that nothing folds to a constant.
 const char* kFront = R"(
-uniform vec4 uLight;      // direction
-uniform vec4 uLightColor; // irradiance
-uniform vec4 uDiffuse;    // k_L, exponent
-uniform vec4 uF0;         // F0, occlusion
 uniform vec4 uCube;       // width, last level
 uniform vec4 uSh9[9];
 uniform samplerCube uEnvironment;
@@ -78,24 +56,6 @@ vec3 lodestar_host_irradiance(int slot, vec3 n) {
 #else
     return textureLod(uIrradiance, n, 0.0).rgb;
 #endif
-}
-
-LodestarSurface here() {
-    LodestarSurface s;
-    vec2 q = fract(gl_FragCoord.xy * (4.0 / 1024.0)) * 2.0 - 1.0;
-    vec2 b = 0.9 * q * inversesqrt(max(dot(q, q), 1.0));
-    s.normal = vec3(b, sqrt(1.0 - dot(b, b)));
-    s.view = normalize(vec3(-0.4 * (gl_FragCoord.xy / 1024.0 - 0.5), 1.0));
-    s.diffuse = uDiffuse.rgb;
-    s.f0 = uF0.rgb;
-    s.exponent = uDiffuse.w;
-    s.occlusion = uF0.w;
-    return s;
-}
-
-vec3 direct(LodestarSurface s) {
-    return uLightColor.rgb *
-           lodestar_directReflectance(s.normal, s.view, uLight.xyz, s.diffuse, s.f0, s.exponent);
 }
 )";
 
@@ -145,7 +105,7 @@ std::string fragmentText(const Variant& variant) {
     std::string text = *gl::assembleShader("lodestar/environment.glsl", 330, defines);
     const std::string sh9 = *gl::assembleShader("lodestar/sh9.glsl", 330, {});
     // The second text repeats the version and the macros of the first, whose guards skip the rest.
-    return text + sh9.substr(sh9.find('\n') + 1) + kFront + variant.main;
+    return text + sh9.substr(sh9.find('\n') + 1) + kFront + kSurface + variant.main;
 }
 
 void setUniforms(const gl::Program& program) {
@@ -191,8 +151,8 @@ int main(int argc, char** argv) {
                           {true, false, false, true});
     auto cube = gl::Texture::makeCube(**device, environment.boxMips, "environment");
     auto irradiance = gl::Texture::makeCube(**device, environment.irradiance, "irradiance");
-    core::Image half(128, 128, 4);
-    std::fill(half.pixels().begin(), half.pixels().end(), 0.5f);
+    core::Texels half(128, 128);
+    std::fill(half.bytes().begin(), half.bytes().end(), static_cast<unsigned char>(128));
     gl::SamplerState tableSampler{
         gl::Wrap::ClampToEdge, gl::Wrap::ClampToEdge, true, true, false, false};
     auto table =
