@@ -75,7 +75,9 @@ core::Result<lighting::LookupAnswer> LightsSampler::answer(const LightsQuery& qu
     if (!maps) {
         maps = std::make_unique<lighting::DayLookup>(**lit, *layout);
     }
-    const auto answer = maps->lookup(query.hour, query.direction, exponent);
+    const auto answer = query.lobe == lighting::Lobe::Lambert
+                            ? maps->lambert(query.hour, query.direction)
+                            : maps->lookup(query.hour, query.direction, exponent);
     return lighting::LookupAnswer{answer.radiance, -1.0, answer.fetches};
 }
 

@@ -243,6 +243,7 @@ namespace {
 
 struct GlFormat {
     GLint internal;
+    GLenum format;
     GLenum type;
     std::size_t bytes; ///< a texel
 };
@@ -250,61 +251,89 @@ struct GlFormat {
 GlFormat glFormat(ArrayFormat format) {
     switch (format) {
     case ArrayFormat::Rgba8:
-        return {GL_RGBA8, GL_UNSIGNED_BYTE, 4};
-    case ArrayFormat::Rgb10A2:
-        return {GL_RGB10_A2, GL_UNSIGNED_INT_2_10_10_10_REV, 4};
+        return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+    case ArrayFormat::Rgb9E5:
+        return {GL_RGB9_E5, GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV, 4};
     case ArrayFormat::Rgba16F:
-        return {GL_RGBA16F, GL_HALF_FLOAT, 8};
+        return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
     case ArrayFormat::Rgba32F:
         break;
     }
-    return {GL_RGBA32F, GL_FLOAT, 16};
+    return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
 }
 
-void setArrayState(GLint wrap) {
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, 0);
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, wrap);
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, wrap);
+void setArrayState(GLenum target, GLint wrap) {
+    glTexParameteri(target, GL_TEXTURE_MAX_LEVEL, 0);
+    glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(target, GL_TEXTURE_WRAP_S, wrap);
+    glTexParameteri(target, GL_TEXTURE_WRAP_T, wrap);
 }
 
 } // namespace
 
+core::Result<void> Texture::allocateArray(int layers, const char* label) {
+    LODESTAR_EXPECT(width_ > 0 && height_ > 0 && layers > 0, "an array has texels and layers");
+    const GlFormat gl = glFormat(format_);
+    const std::vector<std::uint8_t> black(gl.bytes * static_cast<std::size_t>(width_) *
+                                          static_cast<std::size_t>(height_) *
+                                          static_cast<std::size_t>(layers));
+    glBindTexture(target_, id_);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    if (target_ == GL_TEXTURE_1D_ARRAY) {
+        glTexImage2D(target_, 0, gl.internal, width_, layers, 0, gl.format, gl.type, black.data());
+    } else {
+        glTexImage3D(target_, 0, gl.internal, width_, height_, layers, 0, gl.format, gl.type,
+                     black.data());
+    }
+    if (auto allocated = checkAllocation(label); !allocated) {
+        return allocated;
+    }
+    bytes_ = black.size();
+    setArrayState(target_, GL_CLAMP_TO_EDGE);
+    setLabel(*device_, id_, label);
+    device_->counters().textureBytes += bytes_;
+    return {};
+}
+
 core::Result<Texture> Texture::makeArray(Device& device, int width, int height, int layers,
                                          ArrayFormat format, const char* label) {
-    LODESTAR_EXPECT(width > 0 && height > 0 && layers > 0, "an array has texels and layers");
-    const GlFormat gl = glFormat(format);
     Texture texture(device, GL_TEXTURE_2D_ARRAY);
     texture.width_ = width;
     texture.height_ = height;
     texture.format_ = format;
-    texture.bytes_ = gl.bytes * static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
-                     static_cast<std::size_t>(layers);
-    const std::vector<std::uint8_t> black(texture.bytes_);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, texture.id_);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, gl.internal, width, height, layers, 0, GL_RGBA, gl.type,
-                 black.data());
-    if (auto allocated = checkAllocation(label); !allocated) {
-        texture.bytes_ = 0;
+    if (auto allocated = texture.allocateArray(layers, label); !allocated) {
         return allocated.error();
     }
-    setArrayState(GL_CLAMP_TO_EDGE);
-    setLabel(device, texture.id_, label);
-    device.counters().textureBytes += texture.bytes_;
+    return texture;
+}
+
+core::Result<Texture> Texture::makeLineArray(Device& device, int width, int layers,
+                                             ArrayFormat format, const char* label) {
+    Texture texture(device, GL_TEXTURE_1D_ARRAY);
+    texture.width_ = width;
+    texture.height_ = 1;
+    texture.format_ = format;
+    if (auto allocated = texture.allocateArray(layers, label); !allocated) {
+        return allocated.error();
+    }
     return texture;
 }
 
 void Texture::updateLayer(int layer, std::span<const std::uint8_t> texels) {
     const GlFormat gl = glFormat(format_);
     const std::size_t count = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-    LODESTAR_EXPECT(target_ == GL_TEXTURE_2D_ARRAY && texels.size() == count * gl.bytes,
+    LODESTAR_EXPECT((target_ == GL_TEXTURE_2D_ARRAY || target_ == GL_TEXTURE_1D_ARRAY) &&
+                        texels.size() == count * gl.bytes,
                     "a layer's texels are of the array's size and format");
-    glBindTexture(GL_TEXTURE_2D_ARRAY, id_);
+    glBindTexture(target_, id_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, width_, height_, 1, GL_RGBA, gl.type,
-                    texels.data());
+    if (target_ == GL_TEXTURE_1D_ARRAY) {
+        glTexSubImage2D(target_, 0, 0, layer, width_, 1, gl.format, gl.type, texels.data());
+    } else {
+        glTexSubImage3D(target_, 0, 0, 0, layer, width_, height_, 1, gl.format, gl.type,
+                        texels.data());
+    }
     ++device_->counters().uploads;
     device_->counters().uploadBytes += texels.size();
     device_->counters().texelsWritten += count;
@@ -321,7 +350,7 @@ core::Result<Texture> Texture::makeDepthArray(Device& device, int side, int laye
     if (auto allocated = checkAllocation(label); !allocated) {
         return allocated.error();
     }
-    setArrayState(GL_CLAMP_TO_BORDER);
+    setArrayState(GL_TEXTURE_2D_ARRAY, GL_CLAMP_TO_BORDER);
     constexpr float kFar[4] = {1.0f, 1.0f, 1.0f, 1.0f};
     glTexParameterfv(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BORDER_COLOR, kFar);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);

@@ -32,7 +32,7 @@ enum class TexelEncoding { Linear, Srgb };
 /// How the texels of an array lie in memory.
 enum class ArrayFormat {
     Rgba8,   ///< GL_UNSIGNED_BYTE
-    Rgb10A2, ///< GL_UNSIGNED_INT_2_10_10_10_REV
+    Rgb9E5,  ///< GL_UNSIGNED_INT_5_9_9_9_REV
     Rgba16F, ///< GL_HALF_FLOAT
     Rgba32F, ///< GL_FLOAT
 };
@@ -60,6 +60,9 @@ public:
     [[nodiscard]] static core::Result<Texture> makeArray(Device& device, int width, int height,
                                                          int layers, ArrayFormat format,
                                                          const char* label);
+    /// The same of lines, a layer each (GL_TEXTURE_1D_ARRAY): half the taps of a filtered fetch.
+    [[nodiscard]] static core::Result<Texture> makeLineArray(Device& device, int width, int layers,
+                                                             ArrayFormat format, const char* label);
     /// Replaces a layer of an array. @pre the bytes are width x height texels of its format
     void updateLayer(int layer, std::span<const std::uint8_t> texels);
     /// Layers of depths, read by comparison (GL_LEQUAL) with linear filtering; 1 beyond the edges.
@@ -87,6 +90,7 @@ public:
 
 private:
     Texture(Device& device, unsigned target);
+    [[nodiscard]] core::Result<void> allocateArray(int layers, const char* label);
     void reset();
 
     Device* device_ = nullptr;

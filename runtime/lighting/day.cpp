@@ -253,11 +253,10 @@ ZonalRadiance keyRadiance(const DayLight& light, std::size_t key, const Zones& z
     return radiance;
 }
 
-std::vector<glm::vec3> keyGradient(const DayLight& light, std::size_t key,
-                                   const RsrmLayout& layout) {
+std::vector<glm::vec3> keyGradient(const DayLight& light, std::size_t key) {
     LODESTAR_EXPECT(key < light.keys.size(), "the light has the key");
     std::vector<glm::vec3> gradient =
-        unfiltered(RadianceProfile(light.keys[key].gradient, light.kind), layout);
+        unfiltered(RadianceProfile(light.keys[key].gradient, light.kind));
     for (glm::vec3& mean : gradient) {
         mean *= glm::vec3(light.keys[key].tint);
     }
@@ -273,6 +272,7 @@ RsrmBake blended(const RsrmBake& a, const RsrmBake& b, double t, double factor) 
     for (std::size_t i = 0; i < result.planes.size(); ++i) {
         result.planes[i] = first * a.planes[i] + second * b.planes[i];
     }
+    result.lambert = blended(a.lambert, b.lambert, t, factor);
     return result;
 }
 

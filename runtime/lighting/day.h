@@ -103,10 +103,8 @@ struct DayMoment {
 /// A key's zonal radiance, tint included: what is baked once an edit.
 [[nodiscard]] ZonalRadiance keyRadiance(const DayLight& light, std::size_t key, const Zones& zones);
 
-/// A key's unfiltered gradient at a layout's columns, tint included: what `encode` takes beside the
-/// bake.
-[[nodiscard]] std::vector<glm::vec3> keyGradient(const DayLight& light, std::size_t key,
-                                                 const RsrmLayout& layout);
+/// A key's unfiltered gradient, tint included: what stands beside its map.
+[[nodiscard]] std::vector<glm::vec3> keyGradient(const DayLight& light, std::size_t key);
 
 /// (1 - t) a + t b of two bakes, unfiltered gradients or radiances of one shape, times a factor. A
 /// map takes a bake and a gradient of the same t and factor.

@@ -39,7 +39,7 @@ glm::dvec3 gradientAt(const DayLight& light, const DayMoment& moment, double the
 DayLookup::DayLookup(std::vector<DayLight> lights, const RsrmLayout& layout) : layout_(layout) {
     for (DayLight& day : lights) {
         std::vector<std::optional<Key>> keys(day.keys.size());
-        lights_.push_back({std::move(day), std::move(keys), {}, {}});
+        lights_.push_back({std::move(day), std::move(keys), {}});
     }
 }
 
@@ -49,34 +49,48 @@ const DayLookup::Key& DayLookup::key(Light& light, std::size_t index) {
         const LightKind kind = light.day.kind;
         key = Key{kernels_.get(layout_, kind)
                       ->bake(keyRadiance(light.day, index, zonesFor(layout_, kind))),
-                  keyGradient(light.day, index, layout_)};
+                  keyGradient(light.day, index)};
     }
     return *key;
 }
 
-const RsrmTexels& DayLookup::texelsAt(Light& light, double hour) {
-    if (!light.texels || light.hour != hour) {
-        const DayMoment moment = momentAt(light.day, hour);
-        const Key& from = key(light, moment.keys.from);
-        const Key& to = key(light, moment.keys.to);
-        light.texels =
-            encode(layout_, blended(from.bake, to.bake, moment.keys.t, moment.visibility),
-                   blended(from.gradient, to.gradient, moment.keys.t, moment.visibility));
-        light.hour = hour;
+void DayLookup::blend(Light& light, const DayMoment& moment, double hour) {
+    if (light.hour == hour) {
+        return;
     }
-    return *light.texels;
+    const Key& from = key(light, moment.keys.from);
+    const Key& to = key(light, moment.keys.to);
+    light.texels = encode(layout_, blended(from.bake, to.bake, moment.keys.t, moment.visibility));
+    light.gradient = blended(from.gradient, to.gradient, moment.keys.t, moment.visibility);
+    light.hour = hour;
 }
 
 DayLookup::Answer DayLookup::lookup(double hour, const glm::dvec3& direction, double exponent) {
     Answer answer;
+    const bool past =
+        layout_.columnMap == RsrmColumns::Refined && exponent > layout_.greatestExponent;
     for (Light& light : lights_) {
         const DayMoment moment = momentAt(light.day, hour);
         if (moment.visibility > 0.0) {
+            blend(light, moment, hour);
             const double theta = angleBetween(direction, moment.axis);
-            answer.radiance += glm::dvec3(rsrmRadiance(texelsAt(light, hour), theta, exponent));
-            const bool past =
-                layout_.columnMap == RsrmColumns::Refined && exponent > layout_.greatestExponent;
+            answer.radiance +=
+                glm::dvec3(rsrmRadiance(light.texels, light.gradient, theta, exponent));
             answer.fetches += past ? 2 : 1;
+        }
+    }
+    return answer;
+}
+
+DayLookup::Answer DayLookup::lambert(double hour, const glm::dvec3& normal) {
+    Answer answer;
+    for (Light& light : lights_) {
+        const DayMoment moment = momentAt(light.day, hour);
+        if (moment.visibility > 0.0) {
+            blend(light, moment, hour);
+            answer.radiance +=
+                glm::dvec3(rsrmLambert(light.texels, angleBetween(normal, moment.axis)));
+            ++answer.fetches;
         }
     }
     return answer;

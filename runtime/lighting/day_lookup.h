@@ -26,6 +26,8 @@ public:
     /// Sum over the lights of the mean radiance over the Phong lobe about a direction.
     /// @param hour finite  @param direction unit  @param exponent [0, 1e7], +infinity a mirror
     [[nodiscard]] Answer lookup(double hour, const glm::dvec3& direction, double exponent);
+    /// The same over Lambert's lobe about a normal.
+    [[nodiscard]] Answer lambert(double hour, const glm::dvec3& normal);
 
 private:
     struct Key {
@@ -35,11 +37,12 @@ private:
     struct Light {
         DayLight day;
         std::vector<std::optional<Key>> keys;
-        std::optional<double> hour; ///< that the texels are of
-        std::optional<RsrmTexels> texels;
+        std::optional<double> hour; ///< that the texels and the gradient are of
+        RsrmTexels texels{};
+        std::vector<glm::vec3> gradient{};
     };
     [[nodiscard]] const Key& key(Light& light, std::size_t index);
-    [[nodiscard]] const RsrmTexels& texelsAt(Light& light, double hour);
+    void blend(Light& light, const DayMoment& moment, double hour);
 
     RsrmLayout layout_;
     RsrmKernels kernels_;

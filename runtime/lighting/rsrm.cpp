@@ -8,6 +8,7 @@
 #include <span>
 
 #include <glm/common.hpp>
+#include <glm/gtc/packing.hpp>
 
 #include "core/contract.h"
 #include "core/half.h"
@@ -18,10 +19,8 @@ namespace lodestar::lighting {
 
 namespace {
 
-/// A row's least scale: a black row has one too.
+/// A map's least scale: a black one has one too.
 constexpr float kLeastScale = 1e-30f;
-/// How far scales follow the peaks: chosen on a sun, a glow and a sky (docs/derivations/rsrm.md).
-constexpr float kScalePower = 0.7f;
 
 /// Stored values before rounding: [row][channel][column].
 struct Planes {
@@ -33,10 +32,6 @@ struct Planes {
     [[nodiscard]] float* row(std::size_t k) { return values.data() + k * rowSize(); }
     [[nodiscard]] const float* row(std::size_t k) const { return values.data() + k * rowSize(); }
 };
-
-float largest(const float* values, std::size_t count) {
-    return count == 0 ? 0.0f : *std::max_element(values, values + count);
-}
 
 /// Least squares of the hat functions of rows 0 to n - 1 to samples at places: the normal equations
 /// are tridiagonal, and the same for every column.
@@ -101,63 +96,28 @@ private:
     std::vector<double> pivot_;
 };
 
-/// Scales of the rows from the bakes at their exponents: the largest channel anywhere, pulled
-/// 0.3 of the way (in the logarithm) to the greatest. Between rows a lobe's skirt is then off by
-/// less than with the peaks alone; the first rows lose half a bit (RSRM-9).
-std::vector<float> scaleLogs(const RsrmLayout& layout, const RsrmBake& bake) {
+/// sqrt(value) fitted over the rows (RSRM-9).
+Planes fittedPlanes(const RsrmLayout& layout, const RsrmBake& bake) {
     const auto rows = static_cast<std::size_t>(layout.rows);
-    const std::size_t step = (bake.exponents.size() - 1) / (rows - 1);
-    std::vector<float> logs(rows, 0.0f);
-    for (std::size_t k = 0; k < rows; ++k) {
-        logs[k] =
-            std::log2(std::max(largest(bake.value(k * step, 0), 3 * bake.columns), kLeastScale));
-    }
-    const float last = *std::max_element(logs.begin(), logs.end());
-    for (float& log : logs) {
-        log = last + kScalePower * (log - last);
-    }
-    return logs;
-}
-
-/// sqrt(value / scale) fitted over the rows (RSRM-9); where a fitted value is above 1, all scales
-/// grow so that none is.
-Planes fittedPlanes(const RsrmLayout& layout, const RsrmBake& bake, std::vector<float>& logScales) {
-    const auto rows = static_cast<std::size_t>(layout.rows);
-    const std::vector<double> places = fitPlaces(layout);
-    if (layout.rowScales) {
-        logScales = scaleLogs(layout, bake);
-    }
-    const std::size_t width = 3 * bake.columns;
     std::vector<float> samples(bake.planes.size());
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const auto k = std::min(static_cast<std::size_t>(places[i]), rows - 2);
-        const auto t = static_cast<float>(places[i] - static_cast<double>(k));
-        const float scale = 1.0f / shader::lodestar_rsrmRowScale(logScales[k], logScales[k + 1], t);
-        for (std::size_t c = 0; c < width; ++c) {
-            samples[i * width + c] = std::sqrt(std::max(bake.planes[i * width + c], 0.0f) * scale);
-        }
-    }
+    std::transform(bake.planes.begin(), bake.planes.end(), samples.begin(),
+                   [](float value) { return std::sqrt(std::max(value, 0.0f)); });
     Planes planes(rows, bake.columns);
+    const std::vector<double> places = fitPlaces(layout);
     HatFit(places, rows).solve(samples, planes);
-    const float most = largest(planes.values.data(), planes.values.size());
-    const float grown = layout.rowScales && most > 1.0f ? most : 1.0f;
     for (float& value : planes.values) {
-        value = std::max(value, 0.0f) / grown;
-    }
-    for (float& log : logScales) {
-        log += 2.0f * std::log2(grown);
+        value = std::max(value, 0.0f);
     }
     return planes;
 }
 
 /// The rows' own values over one scale.
-Planes plainPlanes(const RsrmLayout& layout, const RsrmBake& bake, std::vector<float>& logScales) {
+Planes plainPlanes(const RsrmLayout& layout, const RsrmBake& bake, float& scale) {
     Planes planes(static_cast<std::size_t>(layout.rows), bake.columns);
-    const float scale = std::max(largest(bake.planes.data(), bake.planes.size()), kLeastScale);
+    scale = std::max(*std::max_element(bake.planes.begin(), bake.planes.end()), kLeastScale);
     for (std::size_t i = 0; i < planes.values.size(); ++i) {
         planes.values[i] = bake.planes[i] / scale;
     }
-    std::fill(logScales.begin(), logScales.end(), std::log2(scale));
     return planes;
 }
 
@@ -180,9 +140,8 @@ void appendTexel(std::vector<std::uint8_t>& bytes, RsrmEncoding encoding, const 
         }
         bytes.push_back(255);
         break;
-    case RsrmEncoding::Unorm10:
-        append(bytes, quantised(rgb.r, 1023.0f) | quantised(rgb.g, 1023.0f) << 10 |
-                          quantised(rgb.b, 1023.0f) << 20 | 3u << 30);
+    case RsrmEncoding::SharedExponent:
+        append(bytes, glm::packF3x9_E1x5(rgb));
         break;
     case RsrmEncoding::Half:
         for (int c = 0; c < 3; ++c) {
@@ -198,29 +157,33 @@ void appendTexel(std::vector<std::uint8_t>& bytes, RsrmEncoding encoding, const 
 
 } // namespace
 
-RsrmTexels encode(const RsrmLayout& layout, const RsrmBake& bake, std::vector<glm::vec3> gradient) {
+RsrmTexels encode(const RsrmLayout& layout, const RsrmBake& bake) {
     LODESTAR_EXPECT(bake.exponents == bakedExponents(layout) &&
                         bake.columns == static_cast<std::size_t>(layout.columns),
                     "the bake is of the layout");
-    LODESTAR_EXPECT(gradient.size() == bake.columns,
-                    "the unfiltered gradient has a value a column");
-    const auto rows = static_cast<std::size_t>(layout.rows);
-    RsrmTexels texels{layout, {}, std::vector<float>(rows, 0.0f), std::move(gradient)};
-    const Planes planes = layout.fitted ? fittedPlanes(layout, bake, texels.logScales)
-                                        : plainPlanes(layout, bake, texels.logScales);
+    RsrmTexels texels{layout, {}, 1.0f, bake.lambert};
+    const Planes planes =
+        layout.fitted ? fittedPlanes(layout, bake) : plainPlanes(layout, bake, texels.scale);
     texels.bytes.reserve(texelBytes(layout));
-    for (std::size_t k = 0; k < rows; ++k) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(layout.rows); ++k) {
         const float* row = planes.row(k);
         for (std::size_t i = 0; i < bake.columns; ++i) {
             appendTexel(texels.bytes, layout.encoding,
                         {row[i], row[bake.columns + i], row[2 * bake.columns + i]});
         }
     }
+    if (!layout.fitted) { // as published: Lambert's is the row of exponent 1
+        const auto row =
+            static_cast<int>(std::lround(-firstOctave(layout) * rowsPerOctave(layout)));
+        for (int i = 0; i < layout.columns; ++i) {
+            texels.lambert.emplace_back(glm::vec3(storedTexel(texels, i, row)) * texels.scale);
+        }
+    }
     return texels;
 }
 
-std::vector<glm::vec3> unfiltered(const RadianceProfile& profile, const RsrmLayout& layout) {
-    const std::vector<double> angles = columnAngles(layout.columnMap, layout.columns);
+std::vector<glm::vec3> unfiltered(const RadianceProfile& profile) {
+    const std::vector<double> angles = columnAngles(RsrmColumns::Refined, kGradientColumns);
     std::vector<double> edges{0.0};
     for (std::size_t i = 0; i + 1 < angles.size(); ++i) {
         edges.push_back(0.5 * (angles[i] + angles[i + 1]));
@@ -245,12 +208,10 @@ glm::vec4 storedTexel(const RsrmTexels& texels, int column, int row) {
         for (int c = 0; c < 3; ++c) {
             value[c] = static_cast<float>(bytes[c]) / 255.0f;
         }
-    } else if (layout.encoding == RsrmEncoding::Unorm10) {
+    } else if (layout.encoding == RsrmEncoding::SharedExponent) {
         std::uint32_t packed = 0;
         std::memcpy(&packed, bytes, sizeof packed);
-        for (int c = 0; c < 3; ++c) {
-            value[c] = static_cast<float>(packed >> (10 * c) & 1023u) / 1023.0f;
-        }
+        value = glm::vec4(glm::unpackF3x9_E1x5(packed), 1.0f);
     } else if (layout.encoding == RsrmEncoding::Half) {
         std::uint16_t halves[4] = {};
         std::memcpy(halves, bytes, sizeof halves);
@@ -272,6 +233,7 @@ namespace {
 /// Texels read as a GPU reads them, bilinear.
 struct RsrmCpuHost {
     const lighting::RsrmTexels* texels = nullptr;
+    std::span<const vec3> gradient;
 
 #define LODESTAR_HOST_CLASS
 #include "lodestar/rsrm.glsl"
@@ -280,23 +242,56 @@ struct RsrmCpuHost {
     [[nodiscard]] vec4 lodestar_host_rsrm(float column, float row, int) const {
         const int left = std::min(static_cast<int>(column), texels->layout.columns - 2);
         const float t = column - static_cast<float>(left);
-        if (row >= static_cast<float>(texels->layout.rows)) {
-            const auto i = static_cast<std::size_t>(left);
-            const vec3 radiance = glm::mix(texels->gradient[i], texels->gradient[i + 1], t);
-            return {glm::sqrt(radiance), 1.0f};
-        }
         const int top = std::min(static_cast<int>(row), texels->layout.rows - 2);
-        const float v = row - static_cast<float>(top);
-        const auto k = static_cast<std::size_t>(top);
         vec4 value = glm::mix(glm::mix(lighting::storedTexel(*texels, left, top),
                                        lighting::storedTexel(*texels, left + 1, top), t),
                               glm::mix(lighting::storedTexel(*texels, left, top + 1),
                                        lighting::storedTexel(*texels, left + 1, top + 1), t),
-                              v);
-        value.a = lodestar_rsrmRowScale(texels->logScales[k], texels->logScales[k + 1], v);
+                              row - static_cast<float>(top));
+        value.a = texels->scale;
         return value;
     }
+
+    [[nodiscard]] vec3 lodestar_host_rsrmLambert(float u, int) const {
+        const auto count = static_cast<float>(texels->lambert.size());
+        return published() ? between(texels->lambert, u * count - 0.5f)
+                           : between(texels->lambert, u * (count - 1.0f));
+    }
+
+    [[nodiscard]] vec3 lodestar_host_rsrmGradient(float u2, int) const {
+        return between(gradient, u2 * static_cast<float>(gradient.size() - 1));
+    }
+
+    [[nodiscard]] bool published() const {
+        return texels->layout.columnMap == lighting::RsrmColumns::UniformHeight;
+    }
+
+    /// Linear between values; the first and the last beyond them.
+    [[nodiscard]] static vec3 between(std::span<const vec3> values, float at) {
+        const float inside = std::clamp(at, 0.0f, static_cast<float>(values.size() - 1));
+        const std::size_t left = std::min(static_cast<std::size_t>(inside), values.size() - 2);
+        return glm::mix(values[left], values[left + 1], inside - static_cast<float>(left));
+    }
 };
+
+LodestarRsrm describe(const lighting::RsrmLayout& layout) {
+    LodestarRsrm map{};
+    map.layoutName = layout.columnMap == lighting::RsrmColumns::UniformHeight
+                         ? LODESTAR_RSRM_PUBLISHED
+                         : LODESTAR_RSRM_REFINED;
+    map.axis = {0.0f, 0.0f, 1.0f};
+    map.columns = static_cast<float>(layout.columns);
+    map.rows = static_cast<float>(layout.rows);
+    map.leastExponent = static_cast<float>(layout.leastExponent);
+    map.greatestExponent = static_cast<float>(layout.greatestExponent);
+    map.firstOctave = static_cast<float>(lighting::firstOctave(layout));
+    map.rowsPerOctave = static_cast<float>(lighting::rowsPerOctave(layout));
+    return map;
+}
+
+vec3 directionAt(double theta) {
+    return {static_cast<float>(std::sin(theta)), 0.0f, static_cast<float>(std::cos(theta))};
+}
 
 } // namespace
 
@@ -304,21 +299,18 @@ struct RsrmCpuHost {
 
 namespace lodestar::lighting {
 
-glm::vec3 rsrmRadiance(const RsrmTexels& texels, double theta, double exponent) {
-    shader::RsrmCpuHost host;
-    host.texels = &texels;
-    shader::LodestarRsrm map{};
-    map.layoutName = texels.layout.columnMap == RsrmColumns::UniformHeight
-                         ? shader::LODESTAR_RSRM_PUBLISHED
-                         : shader::LODESTAR_RSRM_REFINED;
-    map.axis = {0.0f, 0.0f, 1.0f};
-    map.columns = static_cast<float>(texels.layout.columns);
-    map.rows = static_cast<float>(texels.layout.rows);
-    map.leastExponent = static_cast<float>(texels.layout.leastExponent);
-    map.greatestExponent = static_cast<float>(texels.layout.greatestExponent);
-    const glm::vec3 r(static_cast<float>(std::sin(theta)), 0.0f,
-                      static_cast<float>(std::cos(theta)));
-    return host.lodestar_rsrm(map, r, static_cast<float>(exponent));
+glm::vec3 rsrmRadiance(const RsrmTexels& texels, std::span<const glm::vec3> gradient, double theta,
+                       double exponent) {
+    LODESTAR_EXPECT(gradient.size() >= 2, "a gradient has a value at either pole");
+    shader::RsrmCpuHost host{&texels, gradient};
+    const shader::LodestarRsrm map = shader::describe(texels.layout);
+    return host.lodestar_rsrm(map, shader::directionAt(theta),
+                              shader::lodestar_rsrmRow(map, static_cast<float>(exponent)));
+}
+
+glm::vec3 rsrmLambert(const RsrmTexels& texels, double theta) {
+    shader::RsrmCpuHost host{&texels, {}};
+    return host.lodestar_rsrmLambert(shader::describe(texels.layout), shader::directionAt(theta));
 }
 
 } // namespace lodestar::lighting

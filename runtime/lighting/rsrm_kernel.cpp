@@ -119,6 +119,11 @@ void RsrmKernel::buildBySeries(const std::vector<double>& thetas, const std::vec
     }
 }
 
+void RsrmKernel::addLambert() {
+    lambert_ =
+        std::make_shared<const RsrmKernel>(zones_, lambertAngles(), std::vector<double>{1.0});
+}
+
 RsrmBake RsrmKernel::bake(const ZonalRadiance& radiance) const {
     LODESTAR_EXPECT(radiance.zones == zones_ &&
                         radiance.means.size() == static_cast<std::size_t>(zones_.count),
@@ -131,6 +136,13 @@ RsrmBake RsrmKernel::bake(const ZonalRadiance& radiance) const {
         }
     }
     RsrmBake bake{exponents_, columns_, std::vector<float>(exponents_.size() * 3 * columns_)};
+    if (lambert_) {
+        const RsrmBake line = lambert_->bake(radiance);
+        for (std::size_t i = 0; i < line.columns; ++i) {
+            bake.lambert.emplace_back(line.value(0, 0)[i], line.value(0, 1)[i],
+                                      line.value(0, 2)[i]);
+        }
+    }
     for (std::size_t e = 0; e < exponents_.size(); ++e) {
         const float* weights = weights_.data() + e * zones * columns_;
         for (std::size_t j = 0; j < zones; j += 4) {
@@ -158,9 +170,12 @@ std::shared_ptr<const RsrmKernel> RsrmKernels::get(const RsrmLayout& layout, Lig
     }
     const std::vector<double> thetas = columnAngles(layout.columnMap, layout.columns);
     const std::vector<double> exponents = bakedExponents(layout);
-    auto kernel = std::make_shared<const RsrmKernel>(
+    auto kernel = std::make_shared<RsrmKernel>(
         layout.sampledWeights ? RsrmKernel::published(zones.count, thetas, exponents)
                               : RsrmKernel(zones, thetas, exponents));
+    if (layout.fitted) {
+        kernel->addLambert();
+    }
     entries_.push_back({layout, zones, kernel});
     return kernel;
 }

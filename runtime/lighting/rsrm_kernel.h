@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "lighting/rsrm_layout.h"
 #include "lighting/zonal.h"
 
@@ -20,6 +22,8 @@ struct RsrmBake {
     std::vector<double> exponents;
     std::size_t columns = 0;
     std::vector<float> planes; ///< [exponent][channel][column]
+    /// Means over Lambert's lobe at lambertAngles(); empty where the kernel has none.
+    std::vector<glm::vec3> lambert{};
 
     [[nodiscard]] const float* value(std::size_t exponent, std::size_t channel) const {
         return planes.data() + (3 * exponent + channel) * columns;
@@ -46,6 +50,9 @@ public:
     /// @pre the radiance has the kernel's zones
     [[nodiscard]] RsrmBake bake(const ZonalRadiance& radiance) const;
 
+    /// Bakes means over Lambert's lobe too, at lambertAngles().
+    void addLambert();
+
 private:
     RsrmKernel(const Zones& zones, std::size_t columns, std::vector<double> exponents);
     void store(std::size_t exponent, std::size_t column, const double* weights);
@@ -57,7 +64,8 @@ private:
     Zones zones_;
     std::size_t columns_;
     std::vector<double> exponents_;
-    std::vector<float> weights_; ///< [exponent][zone][column]
+    std::vector<float> weights_;                ///< [exponent][zone][column]
+    std::shared_ptr<const RsrmKernel> lambert_; ///< of exponent 1; null: none
 };
 
 /// The kernels of a program, each built at its first use. Safe to use from several threads; a

@@ -16,6 +16,11 @@ namespace {
 
 constexpr int kFitPerRow = 2; ///< places of the fit in a step from row to row
 
+/// What is added to an exponent before its logarithm is taken.
+double rowShift(const RsrmLayout& layout) {
+    return layout.columnMap == RsrmColumns::UniformHeight ? 0.0 : 1.0;
+}
+
 /// The angle of u2 by halving: u2 rises from 0 to 1.
 double refinedAngle(double u) {
     double low = 0.0;
@@ -46,10 +51,28 @@ std::vector<double> columnAngles(RsrmColumns map, int columns) {
 }
 
 double rowExponent(const RsrmLayout& layout, double row) {
-    const double shift = layout.columnMap == RsrmColumns::UniformHeight ? 0.0 : 1.0;
+    const double shift = rowShift(layout);
     const double least = layout.leastExponent + shift;
     const double most = layout.greatestExponent + shift;
     return least * std::pow(most / least, row / (layout.rows - 1)) - shift;
+}
+
+double firstOctave(const RsrmLayout& layout) {
+    return std::log2(layout.leastExponent + rowShift(layout));
+}
+
+double rowsPerOctave(const RsrmLayout& layout) {
+    return (layout.rows - 1) /
+           (std::log2(layout.greatestExponent + rowShift(layout)) - firstOctave(layout));
+}
+
+std::vector<double> lambertAngles() {
+    std::vector<double> angles;
+    for (int j = 0; j < kLambertColumns; ++j) {
+        angles.push_back(2.0 *
+                         std::asin(std::sqrt(static_cast<double>(j) / (kLambertColumns - 1))));
+    }
+    return angles;
 }
 
 std::vector<double> fitPlaces(const RsrmLayout& layout) {

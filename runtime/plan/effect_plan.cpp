@@ -11,7 +11,7 @@ namespace {
 
 using lighting::PreparedParts;
 
-constexpr std::array<const char*, 22> kFeatureNames = {"normals",
+constexpr std::array<const char*, 23> kFeatureNames = {"normals",
                                                        "tangents",
                                                        "vertex-colors",
                                                        "base-color-texture",
@@ -32,7 +32,8 @@ constexpr std::array<const char*, 22> kFeatureNames = {"normals",
                                                        "skinning",
                                                        "second-joints",
                                                        "rsrm-lights",
-                                                       "shadows"};
+                                                       "shadows",
+                                                       "rsrm-mirror"};
 
 /// Texels of a whole chain of six faces.
 std::uint64_t chainTexels(int width) {
@@ -201,6 +202,9 @@ void planRsrmLights(const PlanInput& input, const Receivers& receivers, EffectPl
             result.rsrmLights.push_back(lit);
         }
     }
+    std::stable_partition(result.rsrmLights.begin(), result.rsrmLights.end(),
+                          [](const LitLight& lit) { return lit.shadow >= 0; });
+    result.rsrmPublished = input.rsrmPublished;
 }
 
 /// Joints and morphed vertices: asked for by what is visible, made when they changed.
@@ -247,9 +251,7 @@ void planDeformation(const PlanInput& input, EffectPlan& result) {
 Features lightFeatures(const PlanInput& input, const EffectPlan& result) {
     Features features = input.environment.present ? bit(Feature::Environment) : 0u;
     features |= result.rsrmLights.empty() ? 0u : bit(Feature::RsrmLights);
-    for (const LitLight& lit : result.rsrmLights) {
-        features |= lit.shadow >= 0 ? bit(Feature::Shadows) : 0u;
-    }
+    features |= result.shadowedLights() > 0 ? bit(Feature::Shadows) : 0u;
     return features;
 }
 
@@ -280,6 +282,10 @@ void planDraws(const PlanInput& input, EffectPlan& result) {
         Features features = input.draws[index].features | (lit ? lightFeatures(input, result) : 0u);
         if (lit && input.lightCount > 0) {
             features |= bit(Feature::PunctualLights);
+        }
+        if (has(features, Feature::RsrmLights) && !input.rsrmPublished &&
+            input.draws[index].sharpest > input.rsrmGreatestExponent) {
+            features |= bit(Feature::RsrmMirror);
         }
         result.drawFeatures.push_back(features);
     }
@@ -314,6 +320,11 @@ std::vector<std::string> featureNames(Features set) {
         }
     }
     return names;
+}
+
+std::size_t EffectPlan::shadowedLights() const {
+    return static_cast<std::size_t>(std::count_if(
+        rsrmLights.begin(), rsrmLights.end(), [](const LitLight& lit) { return lit.shadow >= 0; }));
 }
 
 bool EffectPlan::runs(const std::string& effect) const {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,7 @@ enum class Feature : std::uint32_t {
     SecondJoints = 1u << 19,         ///< four more
     RsrmLights = 1u << 20,           ///< skies and suns as radially symmetric maps
     Shadows = 1u << 21,              ///< some sun is hidden by what stands before it
+    RsrmMirror = 1u << 22,           ///< lobes sharper than the maps' last row show the gradients
 };
 
 using Features = std::uint32_t;
@@ -59,7 +61,9 @@ struct DrawView {
     bool glossy = true;  ///< reflects glossily anywhere
     bool lit = true;     ///< takes light at all; false for unlit materials
     bool blended = false;
-    bool casts = true;     ///< a shadow: triangles that are not blended
+    bool casts = true; ///< a shadow: triangles that are not blended
+    /// Phong exponent of its sharpest lookup; infinite where a texture gives it.
+    double sharpest = std::numeric_limits<double>::infinity();
     float distance = 0.0f; ///< metres along the view, for the order of blended draws
     int indexCount = 0;
     std::uint64_t morphBytes = 0; ///< of its vertices with morph targets added; 0: it has none
@@ -91,7 +95,9 @@ struct PlanInput {
     EnvironmentView environment;
     int lightCount = 0;
     std::vector<RsrmLightView> rsrmLights;
-    std::uint64_t shadowTexels = 0; ///< of one shadow map
+    bool rsrmPublished = false;           ///< the layout of their maps
+    double rsrmGreatestExponent = 2048.0; ///< Phong exponent of their maps' last row
+    std::uint64_t shadowTexels = 0;       ///< of one shadow map
     lighting::Estimator specular = lighting::kDefaultSpecular;
     lighting::Estimator diffuse = lighting::kDefaultDiffuse;
     bool jointsMoved = true;      ///< since they were last uploaded
@@ -133,13 +139,16 @@ struct EffectPlan {
     std::vector<std::size_t>
         drawOrder; ///< indices into PlanInput::draws: opaque, then blended back to front
     std::vector<Features> drawFeatures; ///< shader features, in drawOrder's order
-    std::vector<LitLight> rsrmLights;
-    std::vector<std::size_t> casters; ///< indices into PlanInput::draws, of every map drawn
+    std::vector<LitLight> rsrmLights;   ///< those with a shadow map first
+    bool rsrmPublished = false;         ///< the layout of their maps
+    std::vector<std::size_t> casters;   ///< indices into PlanInput::draws, of every map drawn
     /// Draws whose joints and morphs must be up to date: those drawn, and the casters.
     std::vector<std::size_t> deformed;
     bool backdrop = false;
     Features backdropFeatures = 0;
 
+    /// How many of the lights have a shadow map: the first ones.
+    [[nodiscard]] std::size_t shadowedLights() const;
     /// Whether an effect of this name runs.
     [[nodiscard]] bool runs(const std::string& effect) const;
 };

@@ -2,6 +2,7 @@
 #include "scene/draw_list.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "lodestar/lobes.glsl"
 
@@ -26,6 +27,17 @@ float leastExponent(const io::GltfMaterial& material, const RenderSettings& sett
                    : material.blinnPhong->exponent.value_or(0.0f);
     }
     return shader::lodestar_exponentFromRoughness(material.roughness);
+}
+
+/// The Phong exponent of the sharpest lookup a material makes: seen along the surface.
+double sharpestLookup(const io::GltfMaterial& material, const RenderSettings& settings) {
+    const io::GltfTextureRef& texture = material.blinnPhong ? material.blinnPhong->exponentTexture
+                                                            : material.metallicRoughnessTexture;
+    if (!settings.materialOverride && texture.texture != io::kNone) {
+        return std::numeric_limits<double>::infinity();
+    }
+    return static_cast<double>(
+        shader::lodestar_lookupExponent(leastExponent(material, settings), 0.0f));
 }
 
 /// Which of the two terms a material reflects anywhere on its surface.
@@ -79,6 +91,7 @@ plan::DrawView drawView(const Scene& scene, const DrawItem& item, const View& vi
         draw.distance = -glm::vec3(view.cameraFromWorld * glm::vec4(bounds.center(), 1.0f)).z;
     }
     setTerms(draw, materialOf(scene, primitive), settings);
+    draw.sharpest = sharpestLookup(materialOf(scene, primitive), settings);
     draw.lit = !plan::has(draw.features, Feature::Unlit);
     draw.casts = primitive.topology == io::Topology::Triangles &&
                  !plan::has(draw.features, Feature::AlphaBlend);

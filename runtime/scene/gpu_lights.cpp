@@ -12,19 +12,12 @@
 namespace lodestar::scene {
 namespace {
 
-/// Where the unfiltered gradient is sampled, in every layout.
-lighting::RsrmLayout gradientLayout() {
-    lighting::RsrmLayout layout = lighting::kRsrm;
-    layout.columns = kGradientColumns;
-    return layout;
-}
-
 gl::ArrayFormat formatOf(lighting::RsrmEncoding encoding) {
     switch (encoding) {
     case lighting::RsrmEncoding::Unorm8:
         return gl::ArrayFormat::Rgba8;
-    case lighting::RsrmEncoding::Unorm10:
-        return gl::ArrayFormat::Rgb10A2;
+    case lighting::RsrmEncoding::SharedExponent:
+        return gl::ArrayFormat::Rgb9E5;
     case lighting::RsrmEncoding::Half:
         return gl::ArrayFormat::Rgba16F;
     case lighting::RsrmEncoding::Float:
@@ -49,6 +42,20 @@ std::vector<std::uint8_t> rootsOf(const std::vector<glm::vec3>& gradient) {
     return bytes;
 }
 
+std::vector<std::uint8_t> floatsOf(const std::vector<glm::vec3>& radiance) {
+    std::vector<std::uint8_t> bytes(radiance.size() * sizeof(glm::vec4));
+    for (std::size_t i = 0; i < radiance.size(); ++i) {
+        const glm::vec4 texel(radiance[i], 1.0f);
+        std::memcpy(bytes.data() + i * sizeof texel, &texel, sizeof texel);
+    }
+    return bytes;
+}
+
+/// Texels of a layout's line of means over Lambert's lobe.
+int lambertColumns(const lighting::RsrmLayout& layout) {
+    return layout.fitted ? lighting::kLambertColumns : layout.columns;
+}
+
 bool shines(const lighting::DayMoment& moment) {
     return moment.visibility > 0.0;
 }
@@ -58,7 +65,6 @@ bool shines(const lighting::DayMoment& moment) {
 GpuLights::GpuLights(std::vector<lighting::DayLight> lights, const lighting::RsrmLayout& layout,
                      std::shared_ptr<lighting::RsrmKernels> kernels)
     : layout_(layout), kernels_(std::move(kernels)) {
-    LODESTAR_EXPECT(layout.rows <= LODESTAR_MAX_RSRM_ROWS, "the block holds a scale a row");
     int shadows = 0;
     for (lighting::DayLight& day : lights) {
         if (lights_.size() == LODESTAR_MAX_RSRM_LIGHTS) {
@@ -81,6 +87,10 @@ GpuLights::GpuLights(std::vector<lighting::DayLight> lights, const lighting::Rsr
     }
 }
 
+bool GpuLights::published() const {
+    return layout_.columnMap == lighting::RsrmColumns::UniformHeight;
+}
+
 std::string GpuLights::replacement() const {
     for (std::size_t i = 0; i < lights_.size(); ++i) {
         const lighting::DayLight& day = lights_[i].day;
@@ -98,7 +108,9 @@ GpuLights::Content GpuLights::contentOf(const Light& light) {
 
 std::vector<plan::RsrmLightView> GpuLights::describe(double hour) {
     std::vector<plan::RsrmLightView> views;
-    const auto columns = static_cast<std::uint64_t>(layout_.columns);
+    const auto line = static_cast<std::size_t>(lambertColumns(layout_));
+    const std::size_t texels =
+        static_cast<std::size_t>(layout_.columns) * static_cast<std::size_t>(layout_.rows);
     for (std::size_t i = 0; i < lights_.size(); ++i) {
         Light& light = lights_[i];
         light.moment = lighting::momentAt(light.day, hour);
@@ -106,8 +118,9 @@ std::vector<plan::RsrmLightView> GpuLights::describe(double hour) {
         view.subject = light.day.name.empty() ? "light " + std::to_string(i) : light.day.name;
         view.shines = shines(light.moment);
         view.changed = light.uploaded != contentOf(light);
-        view.texels = columns * static_cast<std::uint64_t>(layout_.rows) + kGradientColumns;
-        view.uploadBytes = lighting::texelBytes(layout_) + std::size_t{8} * kGradientColumns;
+        view.texels = texels + line + lighting::kGradientColumns;
+        view.uploadBytes = lighting::texelBytes(layout_) + sizeof(glm::vec4) * line +
+                           std::size_t{8} * lighting::kGradientColumns;
         view.shadow = light.shadow;
         views.push_back(std::move(view));
     }
@@ -119,7 +132,7 @@ const GpuLights::Key& GpuLights::key(Light& light, std::size_t index) {
     if (!key) {
         const auto kernel = kernels_->get(layout_, light.day.kind);
         key = Key{kernel->bake(lighting::keyRadiance(light.day, index, kernel->zones())),
-                  lighting::keyGradient(light.day, index, gradientLayout())};
+                  lighting::keyGradient(light.day, index)};
     }
     return *key;
 }
@@ -131,12 +144,19 @@ core::Result<void> GpuLights::allocate(gl::Device& device) {
     if (!maps) {
         return maps.error();
     }
-    auto gradients = gl::Texture::makeArray(device, kGradientColumns, 1, layers,
+    auto lamberts =
+        gl::Texture::makeLineArray(device, lambertColumns(layout_), layers,
+                                   gl::ArrayFormat::Rgba32F, "Lambert's means of the lights");
+    if (!lamberts) {
+        return lamberts.error();
+    }
+    auto gradients = gl::Texture::makeArray(device, lighting::kGradientColumns, 1, layers,
                                             gl::ArrayFormat::Rgba16F, "gradients of the lights");
     if (!gradients) {
         return gradients.error();
     }
     maps_ = std::move(*maps);
+    lamberts_ = std::move(*lamberts);
     gradients_ = std::move(*gradients);
     return {};
 }
@@ -146,12 +166,11 @@ void GpuLights::upload(std::size_t index) {
     const Content content = contentOf(light);
     const Key& from = key(light, content.from);
     const Key& to = key(light, content.to);
-    // The texels' own gradient is not read: the finer one stands in its place.
     const lighting::RsrmTexels texels =
-        lighting::encode(layout_, lighting::blended(from.bake, to.bake, content.t, content.factor),
-                         std::vector<glm::vec3>(static_cast<std::size_t>(layout_.columns)));
-    light.logScales = texels.logScales;
+        lighting::encode(layout_, lighting::blended(from.bake, to.bake, content.t, content.factor));
+    light.scale = texels.scale;
     maps_.updateLayer(static_cast<int>(index), texels.bytes);
+    lamberts_.updateLayer(static_cast<int>(index), floatsOf(texels.lambert));
     gradients_.updateLayer(
         static_cast<int>(index),
         rootsOf(lighting::blended(from.gradient, to.gradient, content.t, content.factor)));
@@ -174,27 +193,27 @@ core::Result<void> GpuLights::prepare(gl::Device& device, const plan::EffectPlan
 }
 
 void GpuLights::describe(const plan::EffectPlan& plan, blocks::LodestarRsrmLights& block) const {
-    const bool published = layout_.columnMap == lighting::RsrmColumns::UniformHeight;
-    block.rsrmLightCount = {static_cast<float>(plan.rsrmLights.size()), published ? 1.0f : 0.0f,
-                            0.0f, 0.0f};
     block.rsrmMap = {static_cast<float>(layout_.columns), static_cast<float>(layout_.rows),
                      static_cast<float>(layout_.leastExponent),
                      static_cast<float>(layout_.greatestExponent)};
+    block.rsrmTexel = {1.0f / block.rsrmMap.x, 1.0f / block.rsrmMap.y, 0.0f, 0.0f};
+    const float line = static_cast<float>(lambertColumns(layout_));
+    block.rsrmRows = {static_cast<float>(lighting::firstOctave(layout_)),
+                      static_cast<float>(lighting::rowsPerOctave(layout_)),
+                      published() ? 1.0f : (line - 1.0f) / line, published() ? 0.0f : 0.5f / line};
     for (std::size_t i = 0; i < plan.rsrmLights.size(); ++i) {
         const plan::LitLight& lit = plan.rsrmLights[i];
         const Light& light = lights_[lit.light];
         block.rsrmAxis[i] = glm::vec4(light.moment.axis, static_cast<float>(lit.light));
         block.rsrmShadow[i].x = static_cast<float>(lit.shadow);
-        for (std::size_t row = 0; row < light.logScales.size(); ++row) {
-            const std::size_t at = lit.light * LODESTAR_MAX_RSRM_ROWS + row;
-            block.rsrmLogScales[at / 4][static_cast<int>(at % 4)] = light.logScales[row];
-        }
+        block.rsrmScale[i].x = light.scale;
     }
 }
 
 void GpuLights::bind() const {
     if (maps_) {
         maps_.bind(kRsrmMapUnit);
+        lamberts_.bind(kRsrmLambertUnit);
         gradients_.bind(kRsrmGradientUnit);
     }
 }

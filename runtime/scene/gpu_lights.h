@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Skies and suns on the GPU: each light's filtered map is a layer of one texture array, its
-// unfiltered gradient a layer of another. Keys are baked once; a frame whose hour lies elsewhere
-// between them blends the bakes, which is exact, encodes and uploads.
+// Skies and suns on the GPU: each light's filtered map is a layer of one texture array, its means
+// over Lambert's lobe and its unfiltered gradient are layers of two more. Keys are baked once; a
+// frame whose hour lies elsewhere between them blends the bakes, which is exact, encodes and
+// uploads.
 #pragma once
 
 #include <memory>
@@ -19,10 +20,6 @@
 
 namespace lodestar::scene {
 
-/// Columns of the unfiltered gradient, uniform in u2: 0.011 degrees at the edge of a sun's disc;
-/// as RGBA16F 16 KB a light.
-inline constexpr int kGradientColumns = 2048;
-
 class GpuLights {
 public:
     GpuLights() = default;
@@ -35,6 +32,10 @@ public:
     [[nodiscard]] const std::shared_ptr<lighting::RsrmKernels>& kernels() const { return kernels_; }
 
     [[nodiscard]] bool empty() const { return lights_.empty(); }
+    /// Whether the maps have the published columns and rows.
+    [[nodiscard]] bool published() const;
+    /// The Phong exponent of the maps' last row.
+    [[nodiscard]] double greatestExponent() const { return layout_.greatestExponent; }
     /// The name of a sky that stands in the environment's place; empty if none does.
     [[nodiscard]] std::string replacement() const;
     [[nodiscard]] const core::Tally& warnings() const { return warnings_; }
@@ -54,7 +55,7 @@ public:
 private:
     struct Key {
         lighting::RsrmBake bake;
-        std::vector<glm::vec3> gradient; ///< at kGradientColumns
+        std::vector<glm::vec3> gradient;
     };
     /// What a layer holds: two keys, their blend, and a factor.
     struct Content {
@@ -67,8 +68,8 @@ private:
         std::vector<std::optional<Key>> keys; ///< baked at their first use
         lighting::DayMoment moment;
         std::optional<Content> uploaded;
-        std::vector<float> logScales;
-        int shadow = -1; ///< its layer of the shadow maps
+        float scale = 1.0f; ///< of the uploaded map
+        int shadow = -1;    ///< its layer of the shadow maps
     };
 
     [[nodiscard]] static Content contentOf(const Light& light);
@@ -80,7 +81,7 @@ private:
     std::vector<Light> lights_;
     core::Tally warnings_;
     std::shared_ptr<lighting::RsrmKernels> kernels_ = std::make_shared<lighting::RsrmKernels>();
-    gl::Texture maps_, gradients_;
+    gl::Texture maps_, lamberts_, gradients_;
 };
 
 } // namespace lodestar::scene

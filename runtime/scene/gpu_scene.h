@@ -45,19 +45,21 @@ enum TextureUnit : int {
     kIrradianceUnit,
     kJointUnit,
     kRsrmMapUnit,
+    kRsrmLambertUnit,
     kRsrmGradientUnit,
     kShadowUnit,
 };
 
 /// The names of the samplers, by unit.
-inline constexpr std::array<const char*, 14> kSamplerNames = {
+inline constexpr std::array<const char*, 15> kSamplerNames = {
     "uBaseColorTexture", "uMetallicRoughnessTexture",
     "uNormalTexture",    "uOcclusionTexture",
     "uEmissiveTexture",  "uExponentTexture",
     "uSpecularTexture",  "uSpecularColorTexture",
     "uEnvironment",      "uIrradiance",
     "uJoints",           "uRsrmMaps",
-    "uRsrmGradients",    "uShadows"};
+    "uRsrmLamberts",     "uRsrmGradients",
+    "uShadows"};
 
 class GpuScene {
 public:

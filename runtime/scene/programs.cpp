@@ -39,9 +39,21 @@ int diffuseMacro(EstimatorKind kind) {
     }
 }
 
-gl::Defines definesFor(plan::Features features, const RenderSettings& settings) {
+/// The lights of a frame are named by their number, so that loops over them unroll.
+gl::Defines lightDefines(plan::Features features, const plan::EffectPlan& plan) {
+    const auto number = [&](plan::Feature feature, std::size_t count) {
+        return std::to_string(plan::has(features, feature) ? count : 0);
+    };
+    const bool lit = plan::has(features, plan::Feature::RsrmLights);
+    return {{"LODESTAR_RSRM_LIGHTS", number(plan::Feature::RsrmLights, plan.rsrmLights.size())},
+            {"LODESTAR_SHADOWS", number(plan::Feature::Shadows, plan.shadowedLights())},
+            {"LODESTAR_RSRM_LAYOUT", lit && plan.rsrmPublished ? "1" : "0"}};
+}
+
+gl::Defines definesFor(plan::Features features, const plan::EffectPlan& plan,
+                       const RenderSettings& settings) {
     using plan::Feature;
-    gl::Defines defines;
+    gl::Defines defines = lightDefines(features, plan);
     const std::pair<const char*, Feature> macros[] = {
         {"LODESTAR_NORMALS", Feature::Normals},
         {"LODESTAR_TANGENTS", Feature::Tangents},
@@ -63,8 +75,7 @@ gl::Defines definesFor(plan::Features features, const RenderSettings& settings) 
         {"LODESTAR_SPECULAR_COLOR_TEXTURE", Feature::SpecularColorTexture},
         {"LODESTAR_SKINNING", Feature::Skinning},
         {"LODESTAR_SECOND_JOINTS", Feature::SecondJoints},
-        {"LODESTAR_RSRM_LIGHTS", Feature::RsrmLights},
-        {"LODESTAR_SHADOWS", Feature::Shadows},
+        {"LODESTAR_RSRM_MIRROR", Feature::RsrmMirror},
     };
     for (const auto& [name, feature] : macros) {
         defines.emplace_back(name, plan::has(features, feature) ? "1" : "0");
@@ -89,12 +100,11 @@ plan::Features depthFeatures(plan::Features features) {
     return features & kept;
 }
 
-gl::Defines backdropDefines(plan::Features features) {
-    const auto value = [&](plan::Feature feature) {
-        return plan::has(features, feature) ? "1" : "0";
-    };
-    return {{"LODESTAR_ENVIRONMENT", value(plan::Feature::Environment)},
-            {"LODESTAR_RSRM_LIGHTS", value(plan::Feature::RsrmLights)}};
+gl::Defines backdropDefines(const plan::EffectPlan& plan) {
+    gl::Defines defines = lightDefines(plan.backdropFeatures, plan);
+    const bool cube = plan::has(plan.backdropFeatures, plan::Feature::Environment);
+    defines.emplace_back("LODESTAR_ENVIRONMENT", cube ? "1" : "0");
+    return defines;
 }
 
 } // namespace
@@ -122,37 +132,38 @@ core::Result<void> Programs::add(Variants& variants, const char* vertexFile,
 core::Result<void> Programs::compile(const plan::PlanInput& input, const plan::EffectPlan& plan,
                                      const RenderSettings& settings) {
     for (const plan::Features features : plan.drawFeatures) {
-        if (auto made =
-                add(meshes_, "host/mesh.vert", "host/mesh.frag", definesFor(features, settings));
+        if (auto made = add(meshes_, "host/mesh.vert", "host/mesh.frag",
+                            definesFor(features, plan, settings));
             !made) {
             return made;
         }
     }
     for (const std::size_t caster : plan.casters) {
         const plan::Features features = depthFeatures(input.draws[caster].features);
-        if (auto made =
-                add(depths_, "host/mesh.vert", "host/depth.frag", definesFor(features, settings));
+        if (auto made = add(depths_, "host/mesh.vert", "host/depth.frag",
+                            definesFor(features, plan, settings));
             !made) {
             return made;
         }
     }
     if (plan.backdrop) {
-        return add(backdrops_, "host/backdrop.vert", "host/backdrop.frag",
-                   backdropDefines(plan.backdropFeatures));
+        return add(backdrops_, "host/backdrop.vert", "host/backdrop.frag", backdropDefines(plan));
     }
     return {};
 }
 
-const gl::Program& Programs::mesh(plan::Features features, const RenderSettings& settings) const {
-    return meshes_.at(definesFor(features, settings));
+const gl::Program& Programs::mesh(plan::Features features, const plan::EffectPlan& plan,
+                                  const RenderSettings& settings) const {
+    return meshes_.at(definesFor(features, plan, settings));
 }
 
-const gl::Program& Programs::depth(plan::Features features, const RenderSettings& settings) const {
-    return depths_.at(definesFor(depthFeatures(features), settings));
+const gl::Program& Programs::depth(plan::Features features, const plan::EffectPlan& plan,
+                                   const RenderSettings& settings) const {
+    return depths_.at(definesFor(depthFeatures(features), plan, settings));
 }
 
-const gl::Program& Programs::backdrop(plan::Features features) const {
-    return backdrops_.at(backdropDefines(features));
+const gl::Program& Programs::backdrop(const plan::EffectPlan& plan) const {
+    return backdrops_.at(backdropDefines(plan));
 }
 
 } // namespace lodestar::scene

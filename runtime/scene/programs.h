@@ -26,11 +26,11 @@ public:
                                              const RenderSettings& settings);
 
     /// @pre compiled
-    [[nodiscard]] const gl::Program& mesh(plan::Features features,
+    [[nodiscard]] const gl::Program& mesh(plan::Features features, const plan::EffectPlan& plan,
                                           const RenderSettings& settings) const;
-    [[nodiscard]] const gl::Program& backdrop(plan::Features features) const;
+    [[nodiscard]] const gl::Program& backdrop(const plan::EffectPlan& plan) const;
     /// Depth alone, of a caster with these features.
-    [[nodiscard]] const gl::Program& depth(plan::Features features,
+    [[nodiscard]] const gl::Program& depth(plan::Features features, const plan::EffectPlan& plan,
                                            const RenderSettings& settings) const;
 
 private:

@@ -74,14 +74,16 @@ struct Renderer::State {
     [[nodiscard]] plan::PlanInput describe(const View& view, const RenderSettings& settings);
     core::Result<void> drawShadows(const plan::EffectPlan& plan, const RenderSettings& settings,
                                    const plan::PlanInput& input);
-    void drawCaster(std::size_t index, plan::Features features, const RenderSettings& settings);
+    void drawCaster(std::size_t index, plan::Features features, const plan::EffectPlan& plan,
+                    const RenderSettings& settings);
     void drawBackdrop(const plan::EffectPlan& plan);
     blocks::LodestarDraw drawBlock(const DrawItem& item, plan::Features features) const;
-    void drawItem(std::size_t index, plan::Features features, const RenderSettings& settings);
+    void drawItem(std::size_t index, plan::Features features, const plan::EffectPlan& plan,
+                  const RenderSettings& settings);
 };
 
 void Renderer::State::drawBackdrop(const plan::EffectPlan& plan) {
-    programs.backdrop(plan.backdropFeatures).use();
+    programs.backdrop(plan).use();
     fullScreen.bind();
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
@@ -112,13 +114,13 @@ blocks::LodestarDraw Renderer::State::drawBlock(const DrawItem& item,
 }
 
 void Renderer::State::drawItem(std::size_t index, plan::Features features,
-                               const RenderSettings& settings) {
+                               const plan::EffectPlan& plan, const RenderSettings& settings) {
     const DrawItem& item = items[index];
     const GpuPrimitive& part = gpu.primitive(item.mesh, item.primitive);
     const io::GltfMaterial& material =
         materialOf(scene, scene.meshes[static_cast<std::size_t>(item.mesh)]
                               .primitives[static_cast<std::size_t>(item.primitive)]);
-    programs.mesh(features, settings).use();
+    programs.mesh(features, plan, settings).use();
     const blocks::LodestarDraw draw = drawBlock(item, features);
     drawBuffer.update(bytesOf(draw));
     drawBuffer.bindBlock(kDrawBinding);
@@ -138,13 +140,13 @@ void Renderer::State::drawItem(std::size_t index, plan::Features features,
 }
 
 void Renderer::State::drawCaster(std::size_t index, plan::Features features,
-                                 const RenderSettings& settings) {
+                                 const plan::EffectPlan& plan, const RenderSettings& settings) {
     const DrawItem& item = items[index];
     const GpuPrimitive& part = gpu.primitive(item.mesh, item.primitive);
     const io::GltfMaterial& material =
         materialOf(scene, scene.meshes[static_cast<std::size_t>(item.mesh)]
                               .primitives[static_cast<std::size_t>(item.primitive)]);
-    programs.depth(features, settings).use();
+    programs.depth(features, plan, settings).use();
     drawBuffer.update(bytesOf(drawBlock(item, features)));
     drawBuffer.bindBlock(kDrawBinding);
     if (plan::has(features, plan::Feature::AlphaMask)) {
@@ -187,7 +189,7 @@ core::Result<void> Renderer::State::drawShadows(const plan::EffectPlan& plan,
         frameBuffer.bindBlock(kFrameBinding);
         deformation.bind();
         for (const std::size_t caster : plan.casters) {
-            drawCaster(caster, input.draws[caster].features, settings);
+            drawCaster(caster, input.draws[caster].features, plan, settings);
         }
         glDisable(GL_POLYGON_OFFSET_FILL);
     }
@@ -222,7 +224,7 @@ void Renderer::State::drawTile(const plan::EffectPlan& plan, const RenderSetting
             drawBackdrop(plan);
             backdropDrawn = true;
         }
-        drawItem(plan.drawOrder[i], features, settings);
+        drawItem(plan.drawOrder[i], features, plan, settings);
     }
     if (!backdropDrawn) {
         drawBackdrop(plan);
@@ -280,6 +282,8 @@ plan::EnvironmentView beside(plan::EnvironmentView environment, const GpuLights&
 void describeLights(const Scene& scene, const std::vector<DrawItem>& items, double hour,
                     GpuLights& lights, ShadowMaps& shadows, plan::PlanInput& input) {
     input.rsrmLights = lights.describe(hour);
+    input.rsrmPublished = lights.published();
+    input.rsrmGreatestExponent = lights.greatestExponent();
     std::vector<glm::dvec3> axes;
     for (std::size_t i = 0; i < input.rsrmLights.size(); ++i) {
         axes.push_back(lights.axis(i));

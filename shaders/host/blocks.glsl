@@ -20,7 +20,6 @@ using glm::vec4;
 
 #define LODESTAR_MAX_LIGHTS 16
 #define LODESTAR_MAX_RSRM_LIGHTS 8
-#define LODESTAR_MAX_RSRM_ROWS 64
 #define LODESTAR_MAX_SHADOWS 4
 #define LODESTAR_MATERIAL_TEXTURES 8
 // Texture units of a material, the k of uvRows.
@@ -48,11 +47,12 @@ LODESTAR_BLOCK(LodestarFrame)
 LODESTAR_BLOCK_END(LodestarFrame)
 
 LODESTAR_BLOCK(LodestarRsrmLights)
-    vec4 rsrmLightCount; ///< x: how many are lit; y: LODESTAR_RSRM_REFINED or _PUBLISHED
-    vec4 rsrmMap;        ///< of every map: columns, rows, exponents of the first and the last row
-    vec4 rsrmAxis[LODESTAR_MAX_RSRM_LIGHTS];   ///< xyz unit, w layer of its maps
-    vec4 rsrmShadow[LODESTAR_MAX_RSRM_LIGHTS]; ///< x: layer of its shadow map, -1 none
-    vec4 rsrmLogScales[LODESTAR_MAX_RSRM_LIGHTS * LODESTAR_MAX_RSRM_ROWS / 4]; ///< by layer and row
+    vec4 rsrmMap;  ///< of every map: columns, rows, exponents of the first and the last row
+    vec4 rsrmTexel; ///< x, y: 1 / columns, 1 / rows
+    vec4 rsrmRows; ///< first octave, rows an octave; texture coordinate of Lambert's u: z u + w
+    vec4 rsrmAxis[LODESTAR_MAX_RSRM_LIGHTS]; ///< xyz unit, w layer of its maps; casters of shadows first
+    vec4 rsrmShadow[LODESTAR_MAX_RSRM_LIGHTS]; ///< x: layer of its shadow map
+    vec4 rsrmScale[LODESTAR_MAX_RSRM_LIGHTS];  ///< x: scale of its map
     mat4 shadowFromWorld[LODESTAR_MAX_SHADOWS]; ///< to a layer's texture coordinates and depth
     vec4 shadowTexel[LODESTAR_MAX_SHADOWS];     ///< x: metres of one of its texels
 LODESTAR_BLOCK_END(LodestarRsrmLights)

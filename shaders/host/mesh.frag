@@ -46,16 +46,17 @@ vec3 punctualLights(LodestarSurface here) {
 #if LODESTAR_RSRM_LIGHTS
 /// Skies and suns: their means over Lambert's lobe and the glossy one summed, then weighed once.
 vec3 rsrmLights(LodestarSurface here) {
-    LodestarLookup lookup = int(rsrmLightCount.y) == LODESTAR_RSRM_PUBLISHED
+    LodestarLookup lookup = LODESTAR_RSRM_LAYOUT == LODESTAR_RSRM_PUBLISHED
                                 ? lodestar_lookupAsGiven(here.normal, here.view, here.exponent)
                                 : lodestar_lookup(here.normal, here.view, here.exponent);
+    float row = lodestar_rsrmRow(rsrmLight(0), lookup.exponent);
     vec3 lambert = vec3(0.0);
     vec3 glossy = vec3(0.0);
-    for (int i = 0; i < int(rsrmLightCount.x); ++i) {
+    for (int i = 0; i < LODESTAR_RSRM_LIGHTS; ++i) {
         LodestarRsrm map = rsrmLight(i);
         float visible = lodestar_host_visibility(i);
-        lambert += visible * lodestar_rsrm(map, here.normal, 1.0);
-        glossy += visible * lodestar_rsrm(map, lookup.direction, lookup.exponent);
+        lambert += visible * lodestar_rsrmLambert(map, here.normal);
+        glossy += visible * lodestar_rsrm(map, lookup.direction, row);
     }
     return lodestar_reflected(here, lambert, glossy);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The hook lodestar_host_visibility over shadow maps: one layer of depths a sun that casts.
+// LODESTAR_SHADOWS says how many lights have one; they are the first of the block.
 #if LODESTAR_RSRM_LIGHTS
 
 #if LODESTAR_SHADOWS
@@ -36,11 +37,11 @@ float shadowAt(int layer, vec3 toLight) {
 
 float lodestar_host_visibility(int light) {
 #if LODESTAR_SHADOWS
-    int layer = int(rsrmShadow[light].x);
-    return layer < 0 ? 1.0 : shadowAt(layer, rsrmAxis[light].xyz);
-#else
-    return 1.0;
+    if (light < LODESTAR_SHADOWS) {
+        return shadowAt(int(rsrmShadow[light].x), rsrmAxis[light].xyz);
+    }
 #endif
+    return 1.0;
 }
 
 #endif

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
 // Reading radially symmetric reflection maps: filtered light of a sky or a sun as a table over the
-// angle to its axis (columns) and the Phong exponent (rows). One fetch through the hook
-//   lodestar_host_rsrm(column, row, layer)
-//     column  [0, columns - 1] and row [0, rows - 1] count texels from the centre of the first, the
-//             fraction interpolates: a texture coordinate is (column + 0.5) / columns. row = rows,
-//             one past the last, asks for the square root of the unfiltered gradient, which lies at
-//             u2 = column / (columns - 1) in every layout and may be stored finer than the columns.
-//     answers rgb as stored and in alpha the scale of the row (1 where the layout has none; else
-//             lodestar_rsrmRowScale of the two rows about it).
+// angle to its axis (columns) and the Phong exponent (rows), its mean over Lambert's lobe as a line
+// over the cosine, and the gradient that both were made of. A host fetches by three hooks:
+//   vec4 lodestar_host_rsrm(column, row, layer)
+//     column [0, columns - 1] and row [0, rows - 1] count texels from the centre of the first, the
+//     fraction interpolates: a texture coordinate is (column + 0.5) / columns. Answers rgb as stored
+//     and in alpha the map's scale (1 where the layout has none).
+//   vec3 lodestar_host_rsrmLambert(u, layer)
+//     radiance where u = (1 - cosine) / 2 in [0, 1] but for rounding: both ends lie on texel centres in the refined
+//     layout, on texel edges in the published ones.
+//   vec3 lodestar_host_rsrmGradient(u2, layer)
+//     unfiltered radiance at u2 in [0, 1], both ends on texel centres, in every layout.
+//
+// Feature macro: LODESTAR_RSRM_MIRROR 0 leaves the gradient out of lodestar_rsrm, for surfaces whose
+// exponents lie within the map's rows (default 1).
 //
 // Source: Stone, radially symmetric reflection maps; storage and errors: docs/derivations/rsrm.md.
 //
@@ -17,6 +23,10 @@
 #define LODESTAR_RSRM_GLSL
 #include "dual.glsl"
 #include "power.glsl"
+
+#ifndef LODESTAR_RSRM_MIRROR
+#define LODESTAR_RSRM_MIRROR 1
+#endif
 
 LODESTAR_BEGIN
 
@@ -33,6 +43,8 @@ struct LodestarRsrm {
     Real rows;           ///< texels
     Real leastExponent;  ///< of row 0, > 0
     Real greatestExponent; ///< of the last row
+    Real firstOctave;    ///< log2 of the first row's exponent, of that + 1 in the refined layout
+    Real rowsPerOctave;  ///< (rows - 1) over the octaves from the first row to the last
 };
 
 /// sin of half the angle between two unit vectors, |r - axis| / 2, in [0, 1]: keeps its digits at
@@ -58,25 +70,10 @@ LODESTAR_FN Real lodestar_rsrmColumn(int layoutName, Real h, Real columns) {
     return lodestar_rsrmRefinedColumn(h) * (columns - 1.0f);
 }
 
-/// The row of an exponent in texels from the centre of the first, [0, rows - 1]: rows are uniform
-/// in log2(s + shift), shift 0 as published, else 1 (RSRM-7). @param s repaired
-LODESTAR_FN Real lodestar_rsrmRow(Real s, Real rows, Real leastExponent, Real greatestExponent,
-                                  Real shift) {
-    Real clamped = clamp(s, leastExponent, greatestExponent) + shift;
-    Real least = leastExponent + shift;
-    return clamp((rows - 1.0f) * log2(clamped / least) / log2((greatestExponent + shift) / least),
-                 Real(0.0f), rows - 1.0f);
-}
-
-/// The scale between two rows whose scales have these base-2 logarithms.
-LODESTAR_FN Real lodestar_rsrmRowScale(Real lower, Real upper, Real fraction) {
-    return exp2(mix(lower, upper, fraction));
-}
-
 /// Radiance of what the hook answered: refined maps store square roots, interpolated, then squared.
 LODESTAR_FN vec3 lodestar_rsrmDecode(vec4 stored, int layoutName) {
     vec3 rgb = vec3(stored);
-    return layoutName == LODESTAR_RSRM_PUBLISHED ? rgb * stored.w : rgb * rgb * stored.w;
+    return layoutName == LODESTAR_RSRM_PUBLISHED ? rgb * stored.w : rgb * rgb;
 }
 
 /// The share of the unfiltered gradient above the last row, 1 - cos(0.27 degrees)^(s - s1): at the
@@ -85,6 +82,24 @@ LODESTAR_FN Real lodestar_rsrmMirrorShare(Real s, Real greatestExponent) {
     return s > greatestExponent
                ? 1.0f - exp2((greatestExponent - s) * LODESTAR_LITERAL(1.60186e-5))
                : Real(0.0f);
+}
+
+/// The row of an exponent in texels from the centre of the first, [0, rows]: rows are uniform in
+/// log2(s), in log2(s + 1) in the refined layout (RSRM-7). There, between the last row, rows - 1,
+/// and rows, the fraction is the share of the unfiltered gradient.
+/// @param exponent [0, 1e7], +infinity a mirror; below the first row's its own
+LODESTAR_FN Real lodestar_rsrmRow(LodestarRsrm map, Real exponent) {
+    Real s = lodestar_repairExponent(exponent);
+    Real clamped = clamp(s, map.leastExponent, map.greatestExponent);
+    Real shift = map.layoutName == LODESTAR_RSRM_PUBLISHED ? Real(0.0f) : Real(1.0f);
+    Real row = clamp((log2(clamped + shift) - map.firstOctave) * map.rowsPerOctave, Real(0.0f),
+                     map.rows - 1.0f);
+#if LODESTAR_RSRM_MIRROR
+    if (map.layoutName != LODESTAR_RSRM_PUBLISHED) {
+        row += lodestar_rsrmMirrorShare(s, map.greatestExponent);
+    }
+#endif
+    return row;
 }
 
 LODESTAR_END
@@ -107,29 +122,38 @@ LODESTAR_RSRM_BEGIN
 
 #ifndef LODESTAR_HOST_CLASS
 vec4 lodestar_host_rsrm(Real column, Real row, int layer);
+vec3 lodestar_host_rsrmLambert(Real u, int layer);
+vec3 lodestar_host_rsrmGradient(Real u2, int layer);
 #endif
 
 /// The unfiltered gradient in a direction: what a mirror and the backdrop show.
 /// @param r unit
 LODESTAR_FN vec3 lodestar_rsrmGradient(LodestarRsrm map, vec3 r) {
-    Real column = lodestar_rsrmRefinedColumn(lodestar_rsrmHalfChord(r, map.axis)) * (map.columns - 1.0f);
-    return lodestar_rsrmDecode(lodestar_host_rsrm(column, map.rows, map.layer), LODESTAR_RSRM_REFINED);
+    return lodestar_host_rsrmGradient(lodestar_rsrmRefinedColumn(lodestar_rsrmHalfChord(r, map.axis)),
+                                      map.layer);
 }
 
-/// Mean radiance of a map over the Phong lobe about a direction: the glossy term's for a reflection,
-/// Lambert's (over pi) for a normal and exponent 1.
-/// @param r unit  @param exponent [0, 1e7], +infinity a mirror; below the first row its own answer
-LODESTAR_FN vec3 lodestar_rsrm(LodestarRsrm map, vec3 r, Real exponent) {
-    Real s = lodestar_repairExponent(exponent);
-    Real column = lodestar_rsrmColumn(map.layoutName, lodestar_rsrmHalfChord(r, map.axis), map.columns);
-    Real shift = map.layoutName == LODESTAR_RSRM_PUBLISHED ? Real(0.0f) : Real(1.0f);
-    Real row = lodestar_rsrmRow(s, map.rows, map.leastExponent, map.greatestExponent, shift);
-    vec3 filtered = lodestar_rsrmDecode(lodestar_host_rsrm(column, row, map.layer), map.layoutName);
-    Real share = lodestar_rsrmMirrorShare(s, map.greatestExponent);
-    if (map.layoutName == LODESTAR_RSRM_PUBLISHED || share <= 0.0f) {
-        return filtered;
+/// Mean radiance of a map over Lambert's lobe about a normal: irradiance over pi.
+/// @param n unit
+LODESTAR_FN vec3 lodestar_rsrmLambert(LodestarRsrm map, vec3 n) {
+    return lodestar_host_rsrmLambert(0.5f - 0.5f * dot(n, map.axis), map.layer);
+}
+
+/// Mean radiance of a map over the Phong lobe about a direction: the glossy term's.
+/// @param r unit  @param row lodestar_rsrmRow of the lobe's exponent: maps of one layout share it
+LODESTAR_FN vec3 lodestar_rsrm(LodestarRsrm map, vec3 r, Real row) {
+    Real h = lodestar_rsrmHalfChord(r, map.axis);
+    Real last = map.rows - 1.0f;
+    Real column = lodestar_rsrmColumn(map.layoutName, h, map.columns);
+    vec3 filtered =
+        lodestar_rsrmDecode(lodestar_host_rsrm(column, min(row, last), map.layer), map.layoutName);
+#if LODESTAR_RSRM_MIRROR
+    if (row > last) {
+        return mix(filtered, lodestar_host_rsrmGradient(lodestar_rsrmRefinedColumn(h), map.layer),
+                   row - last);
     }
-    return mix(filtered, lodestar_rsrmGradient(map, r), share);
+#endif
+    return filtered;
 }
 
 LODESTAR_RSRM_END

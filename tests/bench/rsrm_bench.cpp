@@ -6,6 +6,7 @@
 
 #include "lighting/day.h"
 #include "lighting/rsrm.h"
+#include "lighting/rsrm_weights.h"
 
 namespace {
 
@@ -55,12 +56,32 @@ void rebake(benchmark::State& state) {
     }
 }
 
+/// Eq. 1 of the paper, literally, into a map of the published size.
+void literal(benchmark::State& state) {
+    const Zones zones = zonesFor(kRsrmPublished, kindOf(state));
+    const ZonalRadiance zonal =
+        zonalRadiance(RadianceProfile(gradientOf(kindOf(state)), kindOf(state)), zones);
+    const std::vector<double> angles =
+        columnAngles(kRsrmPublished.columnMap, kRsrmPublished.columns);
+    for (auto _ : state) {
+        for (const double exponent : bakedExponents(kRsrmPublished)) {
+            for (const double angle : angles) {
+                const auto weights = publishedWeights(angle, zones.count, 128, exponent);
+                glm::dvec3 sum(0.0);
+                for (std::size_t j = 0; j < weights.size(); ++j) {
+                    sum += weights[j] * zonal.means[j];
+                }
+                benchmark::DoNotOptimize(sum);
+            }
+        }
+    }
+}
+
 void texels(benchmark::State& state) {
     const RadianceProfile profile(gradientOf(kindOf(state)), kindOf(state));
     const RsrmBake bake = kernelOf(state).bake(zonalRadiance(profile, kernelOf(state).zones()));
-    const auto gradient = unfiltered(profile, layoutOf(state));
     for (auto _ : state) {
-        benchmark::DoNotOptimize(encode(layoutOf(state), bake, gradient));
+        benchmark::DoNotOptimize(encode(layoutOf(state), bake));
     }
 }
 
@@ -75,6 +96,7 @@ void blend(benchmark::State& state) {
 // The layout (0 rsrm, 1 small), the kind (0 sky, 1 sun).
 BENCHMARK(kernel)->ArgsProduct({{0, 1}, {0, 1}})->Unit(benchmark::kMillisecond);
 BENCHMARK(rebake)->ArgsProduct({{0, 1}, {0, 1}})->Unit(benchmark::kMillisecond);
+BENCHMARK(literal)->ArgsProduct({{0}, {0}})->Unit(benchmark::kMillisecond);
 BENCHMARK(texels)->ArgsProduct({{0, 1}, {0}})->Unit(benchmark::kMillisecond);
 BENCHMARK(blend)->ArgsProduct({{0, 1}, {0}})->Unit(benchmark::kMillisecond);
 

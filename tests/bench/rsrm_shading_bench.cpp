@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// What a pixel lit by a sky and a sun costs, layout by layout, against the same pixel under one
-// directional light (1). One full-screen triangle a variant, all in turn; CPU time of the process,
-// the ratio formed repeat by repeat.
+// What a pixel lit by a sky and a sun costs, layout by layout, against a pixel under one
+// directional light: the least there is (Blinn-Phong, k_L + k_G, no Fresnel: column "plain") and
+// the renderer's own (Fresnel, energy kept, exponents to 1e7: column "own"). One full-screen
+// triangle a variant, all in turn; CPU time of the process, ratios formed repeat by repeat.
 //
 //   build/bench-rsrm-shading [repeats]
 #include <cstdio>
@@ -26,43 +27,76 @@ namespace {
 using namespace lodestar;
 using namespace lodestar::testing;
 
+const char* kPlain = R"(
+void main() {
+    LodestarSurface s = here();
+    vec3 h = normalize(uLight.xyz + s.view);
+    float lobe = (s.exponent + 8.0) * 0.125 * pow(max(dot(s.normal, h), 0.0), s.exponent);
+    oColor = vec4(uLightColor.rgb * max(dot(s.normal, uLight.xyz), 0.0) * (s.diffuse + s.f0 * lobe), 1.0);
+})";
 const char* kDirect = "void main() { oColor = vec4(direct(here()), 1.0); }";
 const char* kNull = "void main() { LodestarSurface s = here(); oColor = vec4(s.normal * 0.5 + "
                     "s.view * 0.1, 1.0); }";
+/// The maps alone: about the reflection, k_L + k_G, no Fresnel: what `kPlain` is to a light.
+const char* kBare = R"(
+void main() {
+    LodestarSurface s = here();
+    vec3 r = 2.0 * dot(s.normal, s.view) * s.normal - s.view;
+    float row = lodestar_rsrmRow(rsrmLight(0), s.exponent);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < LODESTAR_RSRM_LIGHTS; ++i) {
+        LodestarRsrm map = rsrmLight(i);
+        sum += s.diffuse * lodestar_rsrmLambert(map, s.normal) + s.f0 * lodestar_rsrm(map, r, row);
+    }
+    oColor = vec4(sum, 1.0);
+})";
 /// As the built-in renderer's fragment stage.
 const char* kLights = R"(
 void main() {
     LodestarSurface s = here();
-    LodestarLookup lookup = int(rsrmLightCount.y) == LODESTAR_RSRM_PUBLISHED
+    LodestarLookup lookup = LODESTAR_RSRM_LAYOUT == LODESTAR_RSRM_PUBLISHED
                                 ? lodestar_lookupAsGiven(s.normal, s.view, s.exponent)
                                 : lodestar_lookup(s.normal, s.view, s.exponent);
+    float row = lodestar_rsrmRow(rsrmLight(0), lookup.exponent);
     vec3 lambert = vec3(0.0);
     vec3 glossy = vec3(0.0);
-    for (int i = 0; i < int(rsrmLightCount.x); ++i) {
+    for (int i = 0; i < LODESTAR_RSRM_LIGHTS; ++i) {
         LodestarRsrm map = rsrmLight(i);
-        lambert += lodestar_rsrm(map, s.normal, 1.0);
-        glossy += lodestar_rsrm(map, lookup.direction, lookup.exponent);
+        lambert += lodestar_rsrmLambert(map, s.normal);
+        glossy += lodestar_rsrm(map, lookup.direction, row);
     }
     oColor = vec4(lodestar_reflected(s, lambert, glossy), 1.0);
 })";
 
-std::string textOf(const char* file) {
-    const std::string text = *gl::assembleShader(file, 330, {{"LODESTAR_RSRM_LIGHTS", "1"}});
-    return text.substr(text.find('\n') + 1);
-}
+struct Variant {
+    const char* name;
+    const char* main;
+    const lighting::RsrmLayout* layout = nullptr;
+    std::size_t lights = 0;
+    bool mirror = false; ///< its lobes may be sharper than the last row
+    scene::GpuLights gpu{};
+    gl::Buffer block{};
+    gl::Program program{};
+    std::vector<double> cpu{};
+};
 
-std::string fragmentText(const char* main) {
+std::string fragmentText(const Variant& variant) {
+    const gl::Defines defines = {
+        {"LODESTAR_RSRM_LIGHTS", std::to_string(std::max(variant.lights, std::size_t{1}))},
+        {"LODESTAR_RSRM_LAYOUT", variant.gpu.published() ? "1" : "0"},
+        {"LODESTAR_RSRM_MIRROR", variant.mirror ? "1" : "0"}};
     std::string text = "#version 330 core\n";
     for (const char* file : {"host/blocks.glsl", "lodestar/environment.glsl", "lodestar/rsrm.glsl",
                              "host/rsrm_hooks.glsl"}) {
-        text += textOf(file);
+        const std::string part = *gl::assembleShader(file, 330, defines);
+        text += part.substr(part.find('\n') + 1);
     }
     return text + R"(
 vec4 lodestar_host_cube(int slot, vec3 direction, float level) { return vec4(1.0); }
 vec3 lodestar_host_irradiance(int slot, vec3 normal) { return vec3(1.0); }
 layout(location = 0) out vec4 oColor;
 )" + kSurface +
-           main;
+           variant.main;
 }
 
 std::vector<lighting::DayLight> skyAndSun(std::size_t count) {
@@ -90,17 +124,6 @@ std::vector<lighting::DayLight> skyAndSun(std::size_t count) {
     return lights;
 }
 
-struct Variant {
-    const char* name;
-    const char* main;
-    const lighting::RsrmLayout* layout = nullptr;
-    std::size_t lights = 0;
-    scene::GpuLights gpu{};
-    gl::Buffer block{};
-    gl::Program program{};
-    std::vector<double> cpu{};
-};
-
 void setUniforms(const gl::Program& program) {
     program.use();
     const auto set = [&](const char* name, float x, float y, float z, float w) {
@@ -112,18 +135,12 @@ void setUniforms(const gl::Program& program) {
     set("uF0", 0.2f, 0.2f, 0.2f, 1.0f);
     program.setBlock("LodestarRsrmLights", 3);
     program.setSampler("uRsrmMaps", scene::kRsrmMapUnit);
+    program.setSampler("uRsrmLamberts", scene::kRsrmLambertUnit);
     program.setSampler("uRsrmGradients", scene::kRsrmGradientUnit);
 }
 
 core::Result<void> make(gl::Device& device, Variant& variant,
                         const std::shared_ptr<lighting::RsrmKernels>& kernels) {
-    auto program =
-        gl::Program::makeFromText(device, kVertex, fragmentText(variant.main), variant.name);
-    if (!program) {
-        return program.error();
-    }
-    variant.program = std::move(*program);
-    setUniforms(variant.program);
     scene::blocks::LodestarRsrmLights block{};
     if (variant.layout != nullptr) {
         variant.gpu = scene::GpuLights(skyAndSun(variant.lights), *variant.layout, kernels);
@@ -137,6 +154,12 @@ core::Result<void> make(gl::Device& device, Variant& variant,
         }
         variant.gpu.describe(plan, block);
     }
+    auto program = gl::Program::makeFromText(device, kVertex, fragmentText(variant), variant.name);
+    if (!program) {
+        return program.error();
+    }
+    variant.program = std::move(*program);
+    setUniforms(variant.program);
     variant.block =
         gl::Buffer(device, gl::BufferKind::Uniform, std::as_bytes(std::span(&block, 1)));
     return {};
@@ -176,17 +199,24 @@ int main(int argc, char** argv) {
         return fail(device.error());
     }
     std::vector<Variant> variants;
-    variants.push_back({"directional", kDirect});
+    variants.push_back({"plain", kPlain});
+    variants.push_back({"own", kDirect});
     variants.push_back({"null", kNull});
+    std::vector<Variant> bare;
     const std::pair<const char*, const lighting::RsrmLayout*> layouts[] = {
         {"rsrm-published", &lighting::kRsrmPublished},
         {"rsrm", &lighting::kRsrm},
-        {"small", &lighting::kRsrmSmall},
-        {"plain", &lighting::kRsrmPlain}};
+        {"small", &lighting::kRsrmSmall}};
     for (const auto& [name, layout] : layouts) {
         for (const std::size_t lights : {std::size_t{1}, std::size_t{2}}) {
-            variants.push_back({name, kLights, layout, lights});
+            variants.push_back({name, kLights, layout, lights, false});
+            bare.push_back({name, kBare, layout, lights, false});
         }
+    }
+    variants.push_back({"rsrm, mirrors", kLights, &lighting::kRsrm, 1, true});
+    variants.push_back({"rsrm, mirrors", kLights, &lighting::kRsrm, 2, true});
+    for (Variant& variant : bare) {
+        variants.push_back(std::move(variant));
     }
     const auto kernels = std::make_shared<lighting::RsrmKernels>();
     for (Variant& variant : variants) {
@@ -203,15 +233,17 @@ int main(int argc, char** argv) {
     target->begin();
     glDisable(GL_DEPTH_TEST);
     measure(**device, variants, argc > 1 ? std::atoi(argv[1]) : 31);
-    std::printf("%s, %dx%d\n%-16s %6s %10s %8s\n", (*device)->capabilities().renderer.c_str(),
-                kSide, kSide, "variant", "lights", "cpu ms/Mpx", "ratio");
+    std::printf("%s, %dx%d\n%-16s %6s %10s %8s %8s\n", (*device)->capabilities().renderer.c_str(),
+                kSide, kSide, "variant", "lights", "cpu ms/Mpx", "plain", "own");
     for (const Variant& variant : variants) {
-        std::vector<double> ratios;
+        std::vector<double> ratios[2];
         for (std::size_t i = 0; i < variant.cpu.size(); ++i) {
-            ratios.push_back(variant.cpu[i] / variants[0].cpu[i]);
+            ratios[0].push_back(variant.cpu[i] / variants[0].cpu[i]);
+            ratios[1].push_back(variant.cpu[i] / variants[1].cpu[i]);
         }
-        std::printf("%-16s %6zu %10.2f %8.3f\n", variant.name, variant.lights,
-                    median(variant.cpu) / (kSide * kSide / 1e6), median(ratios));
+        std::printf("%-16s %6zu %10.2f %8.3f %8.3f%s\n", variant.name, variant.lights,
+                    median(variant.cpu) / (kSide * kSide / 1e6), median(ratios[0]),
+                    median(ratios[1]), variant.main == kBare ? "  maps alone" : "");
     }
     return 0;
 }

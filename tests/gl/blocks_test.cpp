@@ -48,6 +48,8 @@ gl::Defines everything(int specular, int diffuse, bool on) {
                              "LODESTAR_SKINNING",
                              "LODESTAR_SECOND_JOINTS",
                              "LODESTAR_RSRM_LIGHTS",
+                             "LODESTAR_RSRM_LAYOUT",
+                             "LODESTAR_RSRM_MIRROR",
                              "LODESTAR_SHADOWS"}) {
         defines.emplace_back(name, on ? "1" : "0");
     }
@@ -88,11 +90,12 @@ TEST_F(Blocks, OffsetsAreTheDrivers) {
                             LODESTAR_FIELD(LodestarFrame, lightColor),
                             LODESTAR_FIELD(LodestarFrame, lightDirection),
                             LODESTAR_FIELD(LodestarFrame, lightCone),
-                            LODESTAR_FIELD(LodestarRsrmLights, rsrmLightCount),
                             LODESTAR_FIELD(LodestarRsrmLights, rsrmMap),
+                            LODESTAR_FIELD(LodestarRsrmLights, rsrmTexel),
+                            LODESTAR_FIELD(LodestarRsrmLights, rsrmRows),
                             LODESTAR_FIELD(LodestarRsrmLights, rsrmAxis),
                             LODESTAR_FIELD(LodestarRsrmLights, rsrmShadow),
-                            LODESTAR_FIELD(LodestarRsrmLights, rsrmLogScales),
+                            LODESTAR_FIELD(LodestarRsrmLights, rsrmScale),
                             LODESTAR_FIELD(LodestarRsrmLights, shadowFromWorld),
                             LODESTAR_FIELD(LodestarRsrmLights, shadowTexel),
                             LODESTAR_FIELD(LodestarDraw, worldFromModel),

@@ -87,7 +87,7 @@ TEST_F(Lights, FurnaceShowsOne) {
     settings.width = settings.height = 48;
     settings.backdrop = false;
     for (const lighting::RsrmLayout& layout :
-         {lighting::kRsrm, lighting::kRsrmSmall, lighting::kRsrmPlain, lighting::kRsrmReference}) {
+         {lighting::kRsrm, lighting::kRsrmSmall, lighting::kRsrmReference}) {
         (*renderer)->setLights(inOrder({constantSky()}), layout);
         for (const double hour : {0.0, 3.0, 6.7, 12.0, 23.9}) {
             settings.hour = hour;

@@ -401,11 +401,13 @@ std::vector<GlslCase> rsrmCases() {
         inputs[0] = glm::vec4(r, i < exponents.size() ? exponents[i] : draw.exponent());
         inputs[1] = glm::vec4(axis, i % 3 == 2 ? 1.0f : 0.0f);
         inputs[2] = i % 3 == 2 ? glm::vec4(256, 8, 1, 2048) : glm::vec4(170, 24, 1, 2048);
-        inputs[3] = glm::vec4(draw.uniform(-20, 20), draw.uniform(-20, 20), draw.uniform(0, 1),
-                              draw.uniform(0, 1));
+        inputs[3].w = draw.uniform(0, 1);
         inputs[4] =
             glm::vec4(draw.uniform(0, 1), draw.uniform(0, 1), 0.0f, draw.logarithmic(1e-3f, 1e6f));
-        inputs[5].x = i < kValidExponents.size() ? kValidExponents[i] : draw.exponent();
+        const bool published = i % 3 == 2;
+        const float octaves = published ? 11.0f : 10.0007043f; // log2 of 2048, of 2049 / 2
+        inputs[5] = glm::vec4(i < kValidExponents.size() ? kValidExponents[i] : draw.exponent(),
+                              published ? 0.0f : 1.0f, (inputs[2].y - 1.0f) / octaves, 0.0f);
         cases.push_back(inputs);
     }
     const std::vector<float> chords = {0.0f, 1.0f, 0.70710678f, 0.70710683f, 1e-7f, 0.002f};

@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: MIT
 //
-// Dual text for the parity rows of lodestar/rsrm.glsl: a hook that answers where it was asked, and a
+// Dual text for the parity rows of lodestar/rsrm.glsl: hooks that answer where they were asked, and a
 // map from vectors. In C++ it lies inside the host's class, after the shading text.
 
 LODESTAR_FN vec4 lodestar_host_rsrm(Real column, Real row, int layer) {
     return vec4(column, row, Real(layer), 1.0f);
 }
 
-/// Axis and layout; columns, rows, least and greatest exponent.
-LODESTAR_FN LodestarRsrm parity_rsrm(vec4 axis, vec4 size) {
+LODESTAR_FN vec3 lodestar_host_rsrmLambert(Real u, int layer) {
+    return vec3(u, 1.0f - u, Real(layer));
+}
+
+LODESTAR_FN vec3 lodestar_host_rsrmGradient(Real u2, int layer) {
+    return vec3(100.0f * u2, 50.0f, Real(layer));
+}
+
+/// Axis and layout; columns, rows, least and greatest exponent; y: first octave, z: rows an octave.
+LODESTAR_FN LodestarRsrm parity_rsrm(vec4 axis, vec4 size, vec4 octaves) {
     LodestarRsrm map;
     map.layer = 3;
     map.layoutName = int(axis.w);
@@ -17,5 +25,7 @@ LODESTAR_FN LodestarRsrm parity_rsrm(vec4 axis, vec4 size) {
     map.rows = size.y;
     map.leastExponent = size.z;
     map.greatestExponent = size.w;
+    map.firstOctave = octaves.y;
+    map.rowsPerOctave = octaves.z;
     return map;
 }

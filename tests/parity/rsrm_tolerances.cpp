@@ -38,16 +38,17 @@ double columnError(double layout, double h, double dh, double columns) {
            (refinedColumnError(h, dh) + u * shader_double::lodestar_rsrmRefinedColumn(h));
 }
 
-/// Both arguments by 3.5 u of themselves (two sums, a division); a quotient and two products.
-double rowError(double s, double rows, double least, double greatest, double shift) {
-    const double argument = (std::clamp(s, least, greatest) + shift) / (least + shift);
-    const double whole = std::log2((greatest + shift) / (least + shift));
-    const double part = std::log2(argument);
-    const double each = 3.5 * u / std::log(2.0);
-    const double numerator = part > 0.0 ? log2Error(argument) + each : 0.0;
-    const double denominator = log2Error((greatest + shift) / (least + shift)) + each;
-    return (rows - 1.0) *
-           (numerator / whole + part / (whole * whole) * denominator + 4.0 * u * part / whole);
+/// The argument by u of itself, a difference, two products; a share added to a row of at most
+/// `rows`.
+double rowError(const GlslCase& p) {
+    const double shift = 1.0 - static_cast<double>(p[1].w);
+    const double s = shader_double::lodestar_repairExponent(static_cast<double>(p[0].w));
+    const double argument =
+        std::clamp(s, static_cast<double>(p[2].z), static_cast<double>(p[2].w)) + shift;
+    const double octave = std::log2(argument) - static_cast<double>(p[5].y);
+    return static_cast<double>(p[5].z) *
+               (log2Error(argument) + u / std::log(2.0) + 3.0 * u * std::abs(octave)) +
+           u * static_cast<double>(p[2].y);
 }
 
 /// y = (s - s1) c by 2 u of itself, exp2 by 3 + 2 |y|, a difference.
@@ -72,17 +73,9 @@ Tolerance rsrmColumnTolerance(const GlslCase& p, const glm::dvec4&, int) {
 }
 
 Tolerance rsrmRowTolerance(const GlslCase& p, const glm::dvec4&, int) {
-    return {rowError(static_cast<double>(p[5].x), static_cast<double>(p[2].y),
-                     static_cast<double>(p[2].z), static_cast<double>(p[2].w),
-                     static_cast<double>(1.0f - p[1].w)),
-            0.0, 0.0, 0.0};
-}
-
-// mix of two logarithms: 1 - t, two products and a sum, 2 u of each; exp2 by 3 + 2 |y|.
-Tolerance rsrmRowScaleTolerance(const GlslCase& p, const glm::dvec4& v, int) {
-    const double sum =
-        std::abs(static_cast<double>(p[3].x)) + std::abs(static_cast<double>(p[3].y));
-    return {v.x * (std::log(2.0) * 2.0 * u * sum + (3.0 + 2.0 * sum) * u), 0.0, 0.0, 0.0};
+    const double s = shader_double::lodestar_repairExponent(static_cast<double>(p[0].w));
+    const double mirror = p[1].w > 0.5f ? 0.0 : shareError(s, static_cast<double>(p[2].w));
+    return {rowError(p) + mirror, 0.0, 0.0, 0.0};
 }
 
 Tolerance rsrmMirrorShareTolerance(const GlslCase& p, const glm::dvec4&, int) {
@@ -90,37 +83,42 @@ Tolerance rsrmMirrorShareTolerance(const GlslCase& p, const glm::dvec4&, int) {
 }
 
 // The hook answers column, row and layer 3; refined maps square them, with 2 products, and mix with
-// the row past the last by the share.
+// the gradient's answer, 100 u2, 50 and 3, by the share: 1 - t, two products and a sum of each.
 Tolerance rsrmTolerance(const GlslCase& p, const glm::dvec4& v, int) {
     const double layout = static_cast<double>(p[1].w);
     const double columns = static_cast<double>(p[2].x);
-    const double rows = static_cast<double>(p[2].y);
-    const double least = static_cast<double>(p[2].z);
-    const double greatest = static_cast<double>(p[2].w);
-    const double s = shader_double::lodestar_repairExponent(static_cast<double>(p[0].w));
+    const double last = static_cast<double>(p[2].y) - 1.0;
     const double h = shader_double::lodestar_rsrmHalfChord(glm::dvec3(p[0]), glm::dvec3(p[1]));
-    const double dc = columnError(layout, h, 8.0 * u * h, columns);
-    const double dr = rowError(s, rows, least, greatest, 1.0 - layout);
+    const double dh = 8.0 * u * h;
+    const double dc = columnError(layout, h, dh, columns);
+    const double dr = rowError(p);
     if (layout > 0.5) {
         return {dc + u * v.x, dr + u * v.y, 3.0 * u, 0.0};
     }
     const double column = shader_double::lodestar_rsrmColumn(0, h, columns);
-    const double row = shader_double::lodestar_rsrmRow(s, rows, least, greatest, 1.0);
-    const double share = shareError(s, greatest);
-    return {2.0 * column * dc + dc * dc + 5.0 * u * column * column,
-            2.0 * row * dr + dr * dr + 5.0 * u * rows * rows + share * rows * rows, 5.0 * 9.0 * u,
+    const double u2 = shader_double::lodestar_rsrmRefinedColumn(h);
+    const double s = shader_double::lodestar_repairExponent(static_cast<double>(p[0].w));
+    const double dShare =
+        s > static_cast<double>(p[2].w) ? shareError(s, static_cast<double>(p[2].w)) + dr : 0.0;
+    const auto mixed = [&](double filtered, double dFiltered, double gradient, double dGradient) {
+        return dFiltered + dGradient + dShare * std::abs(gradient - filtered) +
+               6.0 * u * std::max(filtered, gradient);
+    };
+    return {mixed(column * column, 2.0 * column * dc + dc * dc, 100.0 * u2,
+                  100.0 * refinedColumnError(h, dh)),
+            mixed(last * last, 2.0 * last * dr + dr * dr, 50.0, 0.0), mixed(9.0, 0.0, 3.0, 0.0),
             0.0};
 }
 
-// The same without rows between: the hook answers column, rows and 3, squared with 2 products.
-Tolerance rsrmGradientTolerance(const GlslCase& p, const glm::dvec4&, int) {
-    const double columns = static_cast<double>(p[2].x);
-    const double rows = static_cast<double>(p[2].y);
+// A dot product of unit vectors by 3 u, halved; a difference from 1/2, another from 1.
+Tolerance rsrmLambertTolerance(const GlslCase&, const glm::dvec4&, int) {
+    return {3.0 * u, 4.0 * u, 0.0, 0.0};
+}
+
+// The hook answers 100 u2, 50 and 3.
+Tolerance rsrmGradientTolerance(const GlslCase& p, const glm::dvec4& v, int) {
     const double h = shader_double::lodestar_rsrmHalfChord(glm::dvec3(p[0]), glm::dvec3(p[1]));
-    const double dc = columnError(0.0, h, 8.0 * u * h, columns);
-    const double column = shader_double::lodestar_rsrmColumn(0, h, columns);
-    return {2.0 * column * dc + dc * dc + 2.0 * u * column * column, 2.0 * u * rows * rows,
-            2.0 * 9.0 * u, 0.0};
+    return {100.0 * refinedColumnError(h, 8.0 * u * h) + u * v.x, 0.0, 0.0, 0.0};
 }
 
 } // namespace lodestar::testing

@@ -126,8 +126,11 @@ TEST_F(DualTextGl, EachFileCompilesAlone) {
                         "vec3 lodestar_host_irradiance(int s, vec3 n) { return n; }\n";
                 }
                 if (text->find("lodestar_host_rsrm(Real") != std::string::npos) {
-                    *text += "vec4 lodestar_host_rsrm(float c, float r, int l) {"
-                             " return vec4(c, r, l, 1.0); }\n";
+                    *text +=
+                        "vec4 lodestar_host_rsrm(float c, float r, int l) {"
+                        " return vec4(c, r, l, 1.0); }\n"
+                        "vec3 lodestar_host_rsrmLambert(float u, int l) { return vec3(u); }\n"
+                        "vec3 lodestar_host_rsrmGradient(float u, int l) { return vec3(u); }\n";
                 }
                 const auto function =
                     GlslFunction::make(device(), version, *text, "vec4(LODESTAR_PI) + p0");

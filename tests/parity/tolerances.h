@@ -52,9 +52,9 @@ ToleranceFunction environmentTolerance;
 ToleranceFunction rsrmRefinedColumnTolerance;
 ToleranceFunction rsrmColumnTolerance;
 ToleranceFunction rsrmRowTolerance;
-ToleranceFunction rsrmRowScaleTolerance;
 ToleranceFunction rsrmMirrorShareTolerance;
 ToleranceFunction rsrmTolerance;
+ToleranceFunction rsrmLambertTolerance;
 ToleranceFunction rsrmGradientTolerance;
 
 } // namespace lodestar::testing

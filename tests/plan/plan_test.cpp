@@ -279,15 +279,32 @@ TEST(Plan, LightsStandInForTheEnvironment) {
     const EffectPlan result = plan(underLights({ball()}));
     EXPECT_EQ(result.prepare, lighting::PreparedParts{});
     ASSERT_EQ(result.rsrmLights.size(), 2u);
-    EXPECT_TRUE(result.rsrmLights[0].blend);
-    EXPECT_EQ(result.rsrmLights[0].shadow, -1);
-    EXPECT_TRUE(result.rsrmLights[1].drawShadow);
+    EXPECT_EQ(result.shadowedLights(), 1u);
+    EXPECT_EQ(result.rsrmLights[0].light, 1u) << "lights with shadows come first";
+    EXPECT_TRUE(result.rsrmLights[0].drawShadow);
+    EXPECT_TRUE(result.rsrmLights[1].blend);
+    EXPECT_EQ(result.rsrmLights[1].shadow, -1);
     EXPECT_EQ(result.casters, std::vector<std::size_t>{0});
     EXPECT_EQ(effect(result, "rsrm-blend").cost.uploadBytes, 800u);
     EXPECT_EQ(effect(result, "shadow-map").cost.texelsWritten, 64u);
     EXPECT_TRUE(has(result.drawFeatures[0], Feature::RsrmLights));
     EXPECT_TRUE(has(result.drawFeatures[0], Feature::Shadows));
     EXPECT_FALSE(has(result.drawFeatures[0], Feature::Environment));
+}
+
+TEST(Plan, MirrorsAloneReadTheGradients) {
+    DrawView rough = ball();
+    rough.sharpest = 2048.0;
+    DrawView polished = ball();
+    polished.sharpest = 2049.0;
+    PlanInput input = underLights({rough, polished});
+    const EffectPlan result = plan(input);
+    EXPECT_FALSE(has(result.drawFeatures[0], Feature::RsrmMirror));
+    EXPECT_TRUE(has(result.drawFeatures[1], Feature::RsrmMirror));
+    input.rsrmPublished = true;
+    EXPECT_FALSE(has(plan(input).drawFeatures[1], Feature::RsrmMirror)) << "as published";
+    input.rsrmLights.clear();
+    EXPECT_FALSE(has(plan(input).drawFeatures[1], Feature::RsrmMirror));
 }
 
 TEST(Plan, ASunThatDoesNotShineCostsNothing) {
@@ -309,7 +326,7 @@ TEST(Plan, LightsThatHaveNotChangedAreKept) {
     EXPECT_FALSE(result.runs("rsrm-blend"));
     EXPECT_FALSE(result.runs("shadow-map"));
     EXPECT_EQ(result.rsrmLights.size(), 2u);
-    EXPECT_EQ(result.rsrmLights[1].shadow, 0) << "it is drawn already, and read";
+    EXPECT_EQ(result.rsrmLights[0].shadow, 0) << "it is drawn already, and read";
 }
 
 TEST(Plan, NothingReceivesWhereNothingIsLit) {

@@ -167,27 +167,29 @@ TEST(Day, TintsBlendsAndFactorsReachTheMirror) {
     RsrmLayout layout = kRsrmSmall;
     layout.columns = 40;
     layout.rows = 6;
-    const RsrmKernel kernel(zonesFor(LightKind::Sky),
-                            columnAngles(layout.columnMap, layout.columns), bakedExponents(layout));
+    RsrmKernel kernel(zonesFor(LightKind::Sky), columnAngles(layout.columnMap, layout.columns),
+                      bakedExponents(layout));
+    kernel.addLambert();
     const RsrmBake bakes[] = {kernel.bake(keyRadiance(light, 0, kernel.zones())),
                               kernel.bake(keyRadiance(light, 1, kernel.zones()))};
-    const std::vector<glm::vec3> gradients[] = {keyGradient(light, 0, layout),
-                                                keyGradient(light, 1, layout)};
+    const std::vector<glm::vec3> gradients[] = {keyGradient(light, 0), keyGradient(light, 1)};
     for (const double t : {0.0, 0.3, 1.0}) {
-        const RsrmTexels texels = encode(layout, blended(bakes[0], bakes[1], t, 0.7),
-                                         blended(gradients[0], gradients[1], t, 0.7));
+        const RsrmTexels texels = encode(layout, blended(bakes[0], bakes[1], t, 0.7));
+        const auto gradient = blended(gradients[0], gradients[1], t, 0.7);
         const glm::dvec3 sky =
             0.7 * ((1.0 - t) * 4.0 * light.keys[0].tint + t * 1.0 * light.keys[1].tint);
         for (const double s : {8.0, 1e5, HUGE_VAL}) {
             for (const double theta : {0.0, 1.0, 3.0}) {
-                const glm::dvec3 got(rsrmRadiance(texels, theta, s));
+                const glm::dvec3 got(rsrmRadiance(texels, gradient, theta, s));
+                const glm::dvec3 lambert(rsrmLambert(texels, theta));
                 for (int c = 0; c < 3; ++c) {
-                    // Ten bits of a root, half a step of 1/1023 of the brightest channel's,
-                    // doubled; a mirror's are floats.
+                    // Nine bits of a root, half a step of 1/256 of the brightest channel's at
+                    // most, doubled; a mirror's and Lambert's are floats.
                     const double most = std::max({sky.r, sky.g, sky.b});
                     EXPECT_NEAR(got[c], sky[c],
-                                std::isinf(s) ? 1e-6 * sky[c] : std::sqrt(sky[c] * most) / 1023.0)
+                                std::isinf(s) ? 1e-6 * sky[c] : std::sqrt(sky[c] * most) / 256.0)
                         << t << " s " << s << " channel " << c;
+                    EXPECT_NEAR(lambert[c], sky[c], 2e-6 * sky[c]);
                 }
             }
         }
