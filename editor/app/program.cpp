@@ -23,6 +23,7 @@ int runProgram(int argc, char** argv) {
     addView(app, status);
     addPlan(app, status);
     addSample(app, status);
+    addBake(app, status);
     addCheck(app, status);
     try {
         app.parse(argc, argv);

@@ -242,6 +242,14 @@ core::Result<LoadedEnvironment> loadAnalytic(const std::string& environment, int
 
 } // namespace
 
+core::Result<core::Image> loadRadiance(const std::filesystem::path& path, core::Tally& warnings) {
+    auto picture = loadPicture(path, warnings);
+    if (!picture) {
+        return picture.error();
+    }
+    return std::move(picture->image);
+}
+
 core::Result<LoadedEnvironment> loadEnvironment(const std::string& environment, int width) {
     LODESTAR_EXPECT(width >= 1 && width <= kMaxCubeWidth, "a cube's width is 1 to 4096 texels");
     if (lighting::isAnalytic(environment)) {

@@ -3,17 +3,24 @@
 // Any ENV of the command line as a cube map.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
 #include <glm/gtc/quaternion.hpp>
 
+#include "core/image.h"
 #include "core/result.h"
 #include "core/tally.h"
 #include "io/gltf.h"
 #include "lighting/cubemap.h"
 
 namespace lodestar::io {
+
+/// A picture of light: linear radiance, 3 channels, repaired. PNG and JPEG are decoded from sRGB.
+/// @errors InputRefused
+[[nodiscard]] core::Result<core::Image> loadRadiance(const std::filesystem::path& path,
+                                                     core::Tally& warnings);
 
 /// How an environment file was understood.
 enum class EnvironmentLayout { Analytic, LatLong, Cross, Strip, SixFiles };

@@ -179,7 +179,8 @@ std::vector<unsigned char> quantised(const core::Image& image) {
     return levels;
 }
 
-core::Result<Bytes> encodeUnguarded(const core::Image& image, const std::string& format) {
+core::Result<Bytes> encodeUnguarded(const core::Image& image, const std::string& format,
+                                    const ImageTexts& texts) {
     const bool png = format == "png";
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
     if (!output || !output->supports("ioproxy")) {
@@ -196,6 +197,9 @@ core::Result<Bytes> encodeUnguarded(const core::Image& image, const std::string&
     } else {
         spec.attribute("compression", "zip");
     }
+    for (const auto& [name, text] : texts) {
+        spec.attribute(name, text);
+    }
     Bytes bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
     output->set_ioproxy(&memory);
@@ -211,9 +215,10 @@ core::Result<Bytes> encodeUnguarded(const core::Image& image, const std::string&
     return bytes;
 }
 
-core::Result<Bytes> encode(const core::Image& image, const std::string& format) {
+core::Result<Bytes> encode(const core::Image& image, const std::string& format,
+                           const ImageTexts& texts) {
     try {
-        return encodeUnguarded(image, format);
+        return encodeUnguarded(image, format, texts);
     } catch (const std::exception& exception) {
         return failed(std::string("image cannot be encoded: ") + exception.what());
     }

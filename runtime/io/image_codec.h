@@ -18,7 +18,8 @@ struct ImageCodec {
     /// Pixels of an EXR whose header has been checked. @errors InputRefused
     core::Result<core::Image> (*decode)(const Bytes& bytes, const ImageInfo& info);
     /// A whole file. @param format "openexr" or "png"  @errors OutputFailed
-    core::Result<Bytes> (*encode)(const core::Image& image, const std::string& format);
+    core::Result<Bytes> (*encode)(const core::Image& image, const std::string& format,
+                                  const ImageTexts& texts);
 };
 
 /// The module, loaded on the first call. @errors Internal if it is not beside the program

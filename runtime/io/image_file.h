@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 
 #include "core/image.h"
@@ -51,10 +52,13 @@ struct DecodedImage {
 /// Header only. @errors as decodeImage
 [[nodiscard]] core::Result<ImageInfo> imageInfo(const Bytes& bytes);
 
+/// Texts of a file's header, by name.
+using ImageTexts = std::map<std::string, std::string>;
+
 /// Writes linear float pixels as EXR (half or float), or encoded [0, 1] pixels as 8-bit PNG, by the
 /// path's extension; whole or not at all. Non-finite pixels are a contract violation: the renderer
-/// has none. @errors OutputFailed
+/// has none. @param texts string attributes of an EXR  @errors OutputFailed
 [[nodiscard]] core::Result<void> writeImage(const std::filesystem::path& path,
-                                            const core::Image& image);
+                                            const core::Image& image, const ImageTexts& texts = {});
 
 } // namespace lodestar::io

@@ -18,7 +18,8 @@ core::Error failed(const std::filesystem::path& path, std::string what) {
 
 } // namespace
 
-core::Result<void> writeImage(const std::filesystem::path& path, const core::Image& image) {
+core::Result<void> writeImage(const std::filesystem::path& path, const core::Image& image,
+                              const ImageTexts& texts) {
     LODESTAR_EXPECT(!image.empty(), "an image to write has pixels");
     LODESTAR_EXPECT(std::all_of(image.pixels().begin(), image.pixels().end(),
                                 [](float value) { return std::isfinite(value); }),
@@ -33,7 +34,8 @@ core::Result<void> writeImage(const std::filesystem::path& path, const core::Ima
     if (!codec) {
         return codec.error();
     }
-    core::Result<Bytes> bytes = (*codec)->encode(image, extension == ".png" ? "png" : "openexr");
+    core::Result<Bytes> bytes =
+        (*codec)->encode(image, extension == ".png" ? "png" : "openexr", texts);
     if (!bytes) {
         return core::inFile(bytes.error(), path.string());
     }

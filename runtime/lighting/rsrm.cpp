@@ -22,6 +22,10 @@ namespace {
 /// A map's least scale: a black one has one too.
 constexpr float kLeastScale = 1e-30f;
 
+float greatest(const RsrmBake& bake) {
+    return std::max(*std::max_element(bake.planes.begin(), bake.planes.end()), kLeastScale);
+}
+
 /// Stored values before rounding: [row][channel][column].
 struct Planes {
     std::size_t columns;
@@ -114,7 +118,7 @@ Planes fittedPlanes(const RsrmLayout& layout, const RsrmBake& bake) {
 /// The rows' own values over one scale.
 Planes plainPlanes(const RsrmLayout& layout, const RsrmBake& bake, float& scale) {
     Planes planes(static_cast<std::size_t>(layout.rows), bake.columns);
-    scale = std::max(*std::max_element(bake.planes.begin(), bake.planes.end()), kLeastScale);
+    scale = greatest(bake);
     for (std::size_t i = 0; i < planes.values.size(); ++i) {
         planes.values[i] = bake.planes[i] / scale;
     }
@@ -153,6 +157,28 @@ void appendTexel(std::vector<std::uint8_t>& bytes, RsrmEncoding encoding, const 
         append(bytes, glm::vec4(rgb, 1.0f));
         break;
     }
+}
+
+glm::vec4 readTexel(RsrmEncoding encoding, const std::uint8_t* bytes) {
+    glm::vec4 value(0.0f, 0.0f, 0.0f, 1.0f);
+    if (encoding == RsrmEncoding::Unorm8) {
+        for (int c = 0; c < 3; ++c) {
+            value[c] = static_cast<float>(bytes[c]) / 255.0f;
+        }
+    } else if (encoding == RsrmEncoding::SharedExponent) {
+        std::uint32_t packed = 0;
+        std::memcpy(&packed, bytes, sizeof packed);
+        value = glm::vec4(glm::unpackF3x9_E1x5(packed), 1.0f);
+    } else if (encoding == RsrmEncoding::Half) {
+        std::uint16_t halves[4] = {};
+        std::memcpy(halves, bytes, sizeof halves);
+        for (int c = 0; c < 3; ++c) {
+            value[c] = core::floatFromHalf(halves[c]);
+        }
+    } else {
+        std::memcpy(&value, bytes, sizeof value);
+    }
+    return value;
 }
 
 } // namespace
@@ -199,29 +225,30 @@ glm::vec4 storedTexel(const RsrmTexels& texels, int column, int row) {
                     "the texel is in the map");
     const std::size_t each = texelBytes(layout) / (static_cast<std::size_t>(layout.columns) *
                                                    static_cast<std::size_t>(layout.rows));
-    const std::uint8_t* bytes =
-        texels.bytes.data() +
-        each * (static_cast<std::size_t>(row) * static_cast<std::size_t>(layout.columns) +
-                static_cast<std::size_t>(column));
-    glm::vec4 value(0.0f, 0.0f, 0.0f, 1.0f);
-    if (layout.encoding == RsrmEncoding::Unorm8) {
-        for (int c = 0; c < 3; ++c) {
-            value[c] = static_cast<float>(bytes[c]) / 255.0f;
+    const std::size_t at =
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(layout.columns) +
+        static_cast<std::size_t>(column);
+    return readTexel(layout.encoding, texels.bytes.data() + each * at);
+}
+
+std::vector<glm::vec3> storedRows(const RsrmLayout& layout, const RsrmBake& bake) {
+    const bool roots = layout.columnMap == RsrmColumns::Refined;
+    const float scale = layout.encoding == RsrmEncoding::Unorm8 ? greatest(bake) : 1.0f;
+    std::vector<glm::vec3> rows;
+    std::vector<std::uint8_t> bytes;
+    for (std::size_t k = 0; k < bake.exponents.size(); ++k) {
+        for (std::size_t i = 0; i < bake.columns; ++i) {
+            const glm::vec3 value =
+                glm::max(glm::vec3(bake.value(k, 0)[i], bake.value(k, 1)[i], bake.value(k, 2)[i]),
+                         0.0f) /
+                scale;
+            bytes.clear();
+            appendTexel(bytes, layout.encoding, roots ? glm::sqrt(value) : value);
+            const glm::vec3 read(readTexel(layout.encoding, bytes.data()));
+            rows.push_back((roots ? read * read : read) * scale);
         }
-    } else if (layout.encoding == RsrmEncoding::SharedExponent) {
-        std::uint32_t packed = 0;
-        std::memcpy(&packed, bytes, sizeof packed);
-        value = glm::vec4(glm::unpackF3x9_E1x5(packed), 1.0f);
-    } else if (layout.encoding == RsrmEncoding::Half) {
-        std::uint16_t halves[4] = {};
-        std::memcpy(halves, bytes, sizeof halves);
-        for (int c = 0; c < 3; ++c) {
-            value[c] = core::floatFromHalf(halves[c]);
-        }
-    } else {
-        std::memcpy(&value, bytes, sizeof value);
     }
-    return value;
+    return rows;
 }
 
 } // namespace lodestar::lighting

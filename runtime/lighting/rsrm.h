@@ -44,6 +44,10 @@ struct RsrmTexels {
 /// The rgb that a GPU reads at a texel, alpha 1. @pre column and row inside
 [[nodiscard]] glm::vec4 storedTexel(const RsrmTexels& texels, int column, int row);
 
+/// What a layout's encoding keeps of a bake as it is, without rows fitted between exponents: linear
+/// radiance, [exponent][column].
+[[nodiscard]] std::vector<glm::vec3> storedRows(const RsrmLayout& layout, const RsrmBake& bake);
+
 /// Radiance about a direction at an angle from the axis, by shaders/lodestar/rsrm.glsl in float
 /// with exact bilinear weights. @param gradient unfiltered radiance, uniform in u2 from pole to
 /// pole

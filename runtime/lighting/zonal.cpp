@@ -36,7 +36,7 @@ double ringArea(double a, double b) {
 }
 
 Zones zonesFor(LightKind kind) {
-    return {kind == LightKind::Sky ? ZoneSpacing::EqualHeight : ZoneSpacing::Quartic, 256};
+    return {kind == LightKind::Sky ? ZoneSpacing::EqualAngle : ZoneSpacing::Quartic, 256};
 }
 
 std::vector<double> zoneEdges(const Zones& zones) {
@@ -44,6 +44,10 @@ std::vector<double> zoneEdges(const Zones& zones) {
     std::vector<double> edges;
     for (int j = 0; j <= zones.count; ++j) {
         const double u = static_cast<double>(j) / zones.count;
+        if (zones.spacing == ZoneSpacing::EqualAngle) {
+            edges.push_back(std::numbers::pi * u);
+            continue;
+        }
         // sin(theta / 2) = sqrt((1 - z) / 2); from the far end where that is near 1.
         const double h = zones.spacing == ZoneSpacing::EqualHeight ? std::sqrt(u) : u * u;
         const double cosine = std::sqrt(

@@ -14,7 +14,8 @@ namespace lodestar::lighting {
 
 /// Where the zones' edges lie.
 enum class ZoneSpacing {
-    EqualHeight, ///< equal steps of z = cos(theta), equal areas (Stone): skies
+    EqualHeight, ///< equal steps of z = cos(theta), equal areas (Stone)
+    EqualAngle,  ///< equal steps of the angle: skies
     Quartic,     ///< equal steps of ((1 - z) / 2)^(1/4), fine about the axis: suns
 };
 

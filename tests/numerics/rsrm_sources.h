@@ -46,7 +46,7 @@ struct RsrmSource {
                 mean = end <= a ? 0.0
                                 : std::sin(0.5 * (end + a)) * std::sin(0.5 * (end - a)) /
                                       (std::sin(0.5 * (b + a)) * std::sin(0.5 * (b - a)));
-            } else { // the zones are of equal height, an even number
+            } else { // an even number of zones: none holds the horizon
                 const double z = 0.5 * (std::cos(a) + std::cos(b));
                 mean = z > 0.0 ? 1.0 - 0.75 * z : 0.15 + 0.1 * z;
             }

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+//
+// What `lodestar bake` filters: a light of a document, a painted strip, or a panorama's mean over
+// azimuth.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/result.h"
+#include "core/tally.h"
+#include "lighting/rsrm_layout.h"
+#include "lighting/zonal.h"
+
+namespace lodestar::app {
+
+/// The words as given; those that the source has no use for are refused.
+struct BakeSourceOptions {
+    std::string source;
+    std::string light; ///< of a document: name or number; empty: its first one
+    std::optional<double> hour;
+    std::string kind; ///< of a picture's map: "sky" or "sun"; empty: sky
+    std::string axis; ///< of a panorama; empty: 0,1,0
+};
+
+struct BakeSource {
+    std::string what; ///< "document", "strip", "panorama"
+    lighting::LightKind kind = lighting::LightKind::Sky;
+    lighting::ZonalRadiance radiance; ///< in the zones that the layout has for the kind
+    std::optional<double> residual;   ///< of a panorama, lighting::PanoramaZones
+};
+
+/// @errors Usage for words, InputRefused for the file
+[[nodiscard]] core::Result<BakeSource> loadBakeSource(const BakeSourceOptions& options,
+                                                      const lighting::RsrmLayout& layout,
+                                                      core::Tally& warnings);
+
+} // namespace lodestar::app
