@@ -35,7 +35,7 @@ export LIBGL_ALWAYS_SOFTWARE=${LIBGL_ALWAYS_SOFTWARE:-1}
 out=out/demo
 assets=$out/assets
 parts=$out/parts
-total=13
+total=14
 step=0
 started=$SECONDS
 
@@ -177,12 +177,26 @@ done
 sheet day --title "Four painted skies" --note "Sky and sun are maps of 16 KB; no map is captured or filtered again" \
     --columns "1:00|5:30|8:00|12:00|17:30|18:48" $rows
 
+next "one scene at two hours, its maps inset"
+build/lodestar-day "$assets/terrace.gltf" "$parts" 616x462 terrace 10,18.6 samples/skies/clear.lodestar.json ||
+    stop "the hours could not be rendered"
+for hour in 10 18.6; do
+    for light in sky sun; do
+        build/lodestar bake samples/skies/clear.lodestar.json --light $light --hour $hour --columns 128 \
+            -o "$parts/$light-$hour.exr" >/dev/null || stop "a map could not be baked"
+    done
+done
+sheet hours --title "One scene, two hours" \
+    --note "Insets: the filtered maps of the sun and the sky, angle from the axis across, exponents 1 to 2048 down" \
+    --row "" "$parts/clear-10.png::10:00" --inset "$parts/sky-10.exr" --inset "$parts/sun-10.exr" \
+    "$parts/clear-18.6.png::18:36" --inset "$parts/sky-18.6.exr" --inset "$parts/sun-18.6.exr"
+
 next "the golden hour"
 render $out/golden_hour.png terrace --size 1280x720 --camera terrace --hour 18 \
     --lighting samples/skies/golden_hour.lodestar.json
 
 echo "done in $((SECONDS - started)) s; look at:"
-for picture in figure1 figure2 figure3 ashikhmin seams estimators terrace table day golden_hour; do
+for picture in figure1 figure2 figure3 ashikhmin seams estimators terrace table day hours golden_hour; do
     echo "    $out/$picture.png"
 done
 

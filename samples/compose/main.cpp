@@ -9,6 +9,7 @@
 #include "core/result.h"
 #include "io/file.h"
 #include "io/image_file.h"
+#include "lodestar/display.glsl"
 #include "sheet.h"
 
 namespace lodestar::samples {
@@ -16,8 +17,11 @@ namespace {
 
 constexpr std::string_view kUsage =
     "usage: lodestar-compose -o OUT.png [--title T] [--note N] [--columns A|B|..] [--width N]\n"
-    "                        --row LABEL FILE[::CAPTION]... [--row LABEL FILE..]...\n"
-    "Joins pictures into a labelled contact sheet; a LABEL may be empty.\n"
+    "                        --row LABEL FILE[::CAPTION] [--inset FILE].. ... [--row LABEL "
+    "FILE..]...\n"
+    "Joins pictures into a labelled contact sheet; a LABEL may be empty. An inset lies in the "
+    "lower\n"
+    "left of the picture before it. An EXR is shown as `lodestar render` would show it.\n"
     "Example: lodestar-compose -o sheet.png --title Figure --row \"\" a.png::before b.png::after\n";
 
 core::Error usage(const std::string& what) {
@@ -41,9 +45,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
     return parts;
 }
 
-core::Result<Cell> loadCell(const std::string& argument) {
-    const std::size_t mark = argument.find("::");
-    const std::string path = argument.substr(0, mark);
+core::Result<core::Image> loadPicture(const std::string& path) {
     const core::Result<io::Bytes> bytes = io::readFile(path);
     if (!bytes) {
         return core::inFile(bytes.error(), path);
@@ -52,8 +54,26 @@ core::Result<Cell> loadCell(const std::string& argument) {
     if (!decoded) {
         return core::inFile(decoded.error(), path);
     }
-    return Cell{std::move(decoded->image),
-                mark == std::string::npos ? std::string() : argument.substr(mark + 2)};
+    if (decoded->info.format == "openexr") {
+        std::vector<float>& values = decoded->image.pixels();
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            values[i] = i % 4 == 3
+                            ? values[i]
+                            : shader::lodestar_srgbFromLinear(shader::lodestar_filmic(values[i]));
+        }
+    }
+    return std::move(decoded->image);
+}
+
+core::Result<Cell> loadCell(const std::string& argument) {
+    const std::size_t mark = argument.find("::");
+    auto image = loadPicture(argument.substr(0, mark));
+    if (!image) {
+        return image.error();
+    }
+    return Cell{std::move(*image),
+                mark == std::string::npos ? std::string() : argument.substr(mark + 2),
+                {}};
 }
 
 core::Result<void> takeOption(Call& call, const std::string& name, const std::string& value) {
@@ -67,6 +87,15 @@ core::Result<void> takeOption(Call& call, const std::string& name, const std::st
         call.sheet.columns = split(value, '|');
     } else if (name == "--row") {
         call.sheet.rows.push_back({value, {}});
+    } else if (name == "--inset") {
+        if (call.sheet.rows.empty() || call.sheet.rows.back().cells.empty()) {
+            return usage("an --inset follows a picture");
+        }
+        auto inset = loadPicture(value);
+        if (!inset) {
+            return inset.error();
+        }
+        call.sheet.rows.back().cells.back().insets.push_back(std::move(*inset));
     } else if (name == "--width") {
         const bool digits = value.find_first_not_of("0123456789") == std::string::npos;
         call.sheet.width = digits && !value.empty() && value.size() < 6 ? std::stoi(value) : 0;

@@ -95,6 +95,31 @@ void paste(core::Image& sheet, const core::Image& linear, int x, int y) {
     }
 }
 
+/// Stretches without filtering, so that a map's texels can be seen.
+core::Image stretch(const core::Image& image, int width, int height) {
+    core::Image wide(width, height, 3);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            std::copy_n(image.at(x * image.width() / width, y * image.height() / height), 3,
+                        wide.at(x, y));
+        }
+    }
+    return wide;
+}
+
+/// The insets of a picture that lies at (x, y), from its lower left corner upwards.
+void drawInsets(core::Image& sheet, const Cell& cell, int x, int y, int width, int height) {
+    constexpr int kFrame = 2;
+    const int wide = width / 3;
+    const int high = wide / 4;
+    int top = y + height - kGap;
+    for (const core::Image& inset : cell.insets) {
+        top -= high + 2 * kFrame + kGap;
+        fill(sheet, x + 2 * kGap, top, wide + 2 * kFrame, high + 2 * kFrame, kInk);
+        paste(sheet, stretch(flatten(inset), wide, high), x + 2 * kGap + kFrame, top + kFrame);
+    }
+}
+
 /// The sizes of a row's pictures on the sheet.
 struct RowLayout {
     int height = 0;
@@ -148,6 +173,7 @@ void drawRow(core::Image& sheet, const SheetRow& row, const RowLayout& layout, i
     int x = (sheet.width() - used) / 2;
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
         paste(sheet, shrink(flatten(row.cells[i].image), layout.widths[i], layout.height), x, y);
+        drawInsets(sheet, row.cells[i], x, y, layout.widths[i], layout.height);
         drawCentred(sheet, x, layout.widths[i], y + layout.height + 8, row.cells[i].caption, kInk);
         x += layout.widths[i] + kGap;
     }

@@ -13,6 +13,7 @@ namespace lodestar::samples {
 struct Cell {
     core::Image image; ///< encoded, 4 channels: rgb and unassociated alpha
     std::string caption;
+    std::vector<core::Image> insets; ///< as image; small maps laid over its lower left
 };
 
 struct SheetRow {
@@ -28,8 +29,9 @@ struct Sheet {
     int width = 1280; ///< of the whole sheet, pixels
 };
 
-/// Draws a sheet: each row's pictures are made equally high and shrunk to the sheet's width
-/// together (never enlarged). @pre every row has a cell, no image is empty
+/// Draws a sheet; insets are stretched to a third of their picture's width, texels kept sharp. Each
+/// row's pictures are made equally high and shrunk to the sheet's width together (never enlarged).
+/// @pre every row has a cell, no image is empty
 [[nodiscard]] core::Image drawSheet(const Sheet& sheet);
 
 } // namespace lodestar::samples
