@@ -137,6 +137,37 @@ scene::Scene dielectrics(const Fault& fault) {
     return scene::buildScene(fourOf(sphere(32, 64), materials));
 }
 
+/// Grey on white under a sky with a step at its horizon and a sun that the day moves and dims.
+std::vector<lighting::DayLight> skyAndSun() {
+    lighting::DayLight sky;
+    sky.keys = {{12.0,
+                 {{{90, {0.1, 0.25, 0.7}, 0},
+                   {0, {0.8, 0.85, 0.9}, 0},
+                   {0, {0.25, 0.2, 0.15}, 0},
+                   {-90, {0.1, 0.08, 0.06}, 0}}},
+                 glm::dvec3(1.0),
+                 {}},
+                {19.0,
+                 {{{90, {0.1, 0.12, 0.35}, 0},
+                   {0, {1.2, 0.6, 0.25}, 0},
+                   {0, {0.1, 0.08, 0.07}, 0},
+                   {-90, {0.04, 0.03, 0.03}, 0}}},
+                 glm::dvec3(1.0),
+                 {}}};
+    lighting::DayLight sun;
+    sun.kind = lighting::LightKind::Sun;
+    const lighting::Gradient disc{
+        {{0, {1, 1, 1}, 6}, {3, {1, 1, 1}, 6}, {3, {1, 1, 1}, 0}, {25, {0, 0, 0}, 0}}};
+    sun.keys = {{12.0, disc, {1.0, 0.95, 0.9}, glm::normalize(glm::dvec3(0.3, 0.9, 0.6))},
+                {19.0, disc, {1.0, 0.5, 0.2}, glm::normalize(glm::dvec3(-0.8, 0.15, 0.5))}};
+    std::vector<lighting::DayLight> lights = {sky, sun};
+    core::Tally warnings;
+    for (lighting::DayLight& light : lights) {
+        light = *lighting::repaired(light, warnings);
+    }
+    return lights;
+}
+
 struct Golden {
     const char* name;
     lighting::AnalyticEnvironment environment;
@@ -147,11 +178,16 @@ struct Golden {
     /// Thresholds on |a - b| / (1 + a): the largest a pixel may reach, the mean, and the share of
     /// pixels allowed beyond 1/255. Reasons in docs/testing.md.
     double largest = 0.5, mean = 1e-3, failing = 1e-3;
+    std::vector<lighting::DayLight> (*lights)() = nullptr; ///< in the environment's place
+    double hour = 12.0;
 };
 
 const lighting::FacesEnvironment kFaces{{glm::dvec3(1.5, 0.2, 0.1), glm::dvec3(0.1, 0.6, 0.2),
                                          glm::dvec3(0.2, 0.4, 1.6), glm::dvec3(0.3, 0.25, 0.2),
                                          glm::dvec3(0.9, 0.9, 0.8), glm::dvec3(0.02)}};
+
+/// What bounds the pictures under skyAndSun(): its disc's radiance.
+const lighting::ConstantEnvironment kDisc{glm::dvec3(64.0)};
 
 const Golden kGoldens[] = {
     {"sky-tent-irradiance", lighting::ClearSkyEnvironment{}, "tent", "irradiance", true},
@@ -165,6 +201,8 @@ const Golden kGoldens[] = {
     {"unlit", kFaces, "tent", "irradiance", false, unlit},
     {"vertex-colors", kFaces, "tent", "irradiance", false, vertexColors},
     {"ior-specular", kFaces, "tent", "irradiance", false, dielectrics},
+    {"day-noon", kDisc, "tent", "irradiance", true, fourSpheres, 0.5, 1e-3, 1e-3, skyAndSun, 12.0},
+    {"day-dusk", kDisc, "tent", "irradiance", true, fourSpheres, 0.5, 1e-3, 1e-3, skyAndSun, 18.5},
 };
 
 class Goldens : public GlTest {
@@ -176,9 +214,14 @@ public:
         const scene::Scene scene = golden.scene(fault);
         auto renderer = scene::Renderer::make(device(), scene);
         EXPECT_TRUE(renderer.ok());
-        (*renderer)->setEnvironment(golden.name,
-                                    lighting::cubeFromAnalytic(golden.environment, 64));
+        if (golden.lights != nullptr) {
+            (*renderer)->setLights(golden.lights());
+        } else {
+            (*renderer)->setEnvironment(golden.name,
+                                        lighting::cubeFromAnalytic(golden.environment, 64));
+        }
         scene::RenderSettings settings;
+        settings.hour = golden.hour;
         settings.width = settings.height = kSide;
         settings.backdrop = golden.backdrop;
         settings.specular = *lighting::parseEstimator(golden.specular, lighting::Term::Glossy);
