@@ -74,7 +74,8 @@ nlohmann::json stats(const std::vector<scene::Frame>& frames, const gl::WorkCoun
             {"renderer", device.capabilities().renderer},
             {"estimators",
              {{"specular", lighting::estimatorName(loaded.settings.specular)},
-              {"diffuse", lighting::estimatorName(loaded.settings.diffuse)}}}};
+              {"diffuse", lighting::estimatorName(loaded.settings.diffuse)},
+              {"lights", loaded.lights.empty() ? "" : loaded.lightsEstimator}}}};
 }
 
 core::Result<void> renderAll(const RenderOptions& options, OutputKind kind, LoadedScene& loaded) {
@@ -94,7 +95,7 @@ core::Result<void> renderAll(const RenderOptions& options, OutputKind kind, Load
     if (!loaded.light.environment.base.empty()) {
         (*renderer)->setEnvironment(loaded.light.name, std::move(loaded.light.environment.base));
     }
-    (*renderer)->setLights(loaded.lights);
+    (*renderer)->setLights(loaded.lights, *lighting::rsrmLayoutNamed(loaded.lightsEstimator));
     warn((*renderer)->lightWarnings(), loaded.lightsName);
     std::vector<scene::Frame> frames;
     const bool sequence = options.output.find("%04d") != std::string::npos;

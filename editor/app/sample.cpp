@@ -376,7 +376,8 @@ void addSample(CLI::App& app, int& status) {
     };
     const std::string names = "How it is looked up: " + list(lighting::Term::Glossy) +
                               " (default tent); for lambert " + list(lighting::Term::Diffuse) +
-                              " (default irradiance); for a document's lights " + kLightEstimators;
+                              " (default irradiance); for a document's lights " +
+                              lighting::kRsrmNames + ", reference";
     command->add_option("--estimator", query.estimator, names);
     command->add_option("--width", query.width, "Cube face width in texels (default 256)")
         ->check(CLI::Range(1, kMaxWidth));

@@ -24,13 +24,6 @@ double lookupExponent(const LightsQuery& query) {
     return query.exponent;
 }
 
-const lighting::RsrmLayout* layoutOf(const std::string& estimator) {
-    return estimator.empty() || estimator == "rsrm" ? &lighting::kRsrm
-           : estimator == "rsrm-published"          ? &lighting::kRsrmPublished
-           : estimator == "rsrm-published-columns"  ? &lighting::kRsrmPublishedColumns
-                                                    : nullptr;
-}
-
 } // namespace
 
 core::Result<const std::vector<lighting::DayLight>*> LightsSampler::lights(const std::string& file,
@@ -54,10 +47,12 @@ core::Result<const std::vector<lighting::DayLight>*> LightsSampler::lights(const
 core::Result<lighting::LookupAnswer> LightsSampler::answer(const LightsQuery& query,
                                                            core::Tally& warnings) {
     const bool reference = query.estimator == "reference";
-    const lighting::RsrmLayout* layout = layoutOf(query.estimator);
+    const lighting::RsrmLayout* layout =
+        lighting::rsrmLayoutNamed(query.estimator.empty() ? "rsrm" : query.estimator);
     if (!reference && layout == nullptr) {
         return usage("\"" + query.estimator +
-                     "\" is no estimator of a document's lights; these are: " + kLightEstimators);
+                     "\" is no estimator of a document's lights; these are: " +
+                     lighting::kRsrmNames + ", reference");
     }
     const auto lit = lights(query.file, warnings);
     if (!lit) {

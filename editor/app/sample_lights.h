@@ -26,10 +26,6 @@ struct LightsQuery {
     std::string estimator;               ///< empty: rsrm
 };
 
-/// The estimators that lights have, for help and messages.
-inline constexpr const char* kLightEstimators =
-    "rsrm, rsrm-published, rsrm-published-columns, reference";
-
 /// Answers queries; keeps documents and their maps from one query to the next.
 class LightsSampler {
 public:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include <glm/trigonometric.hpp>
 
@@ -12,6 +13,7 @@
 #include "app/command.h"
 #include "app/scene_lighting.h"
 #include "io/gltf.h"
+#include "lighting/rsrm_layout.h"
 
 namespace lodestar::app {
 namespace {
@@ -137,6 +139,22 @@ core::Result<scene::CameraRequest> cameraRequest(const SceneOptions& options) {
     return request;
 }
 
+/// Takes an estimator of a document's lights, which serves both terms, out of the words for the
+/// environment's. Empty: none is given.
+core::Result<std::string> takeLightsEstimator(SceneOptions& options) {
+    std::string taken;
+    for (std::string* text : {&options.specular, &options.diffuse}) {
+        if (lighting::rsrmLayoutNamed(*text) != nullptr) {
+            if (!taken.empty() && taken != *text) {
+                return usage("lights have one estimator for both terms, not '" + taken + "' and '" +
+                             *text + "'");
+            }
+            taken = std::exchange(*text, std::string());
+        }
+    }
+    return taken;
+}
+
 core::Result<scene::RenderSettings> renderSettings(const SceneOptions& options) {
     scene::RenderSettings settings;
     auto size = parseSize(options.size);
@@ -206,9 +224,12 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("--size", options.size, "Picture size WxH")->capture_default_str();
     command.add_option(
         "--specular", options.specular,
-        "Glossy estimator: tent (default), mip, mip-floor, bias:LAMBDA, bias:LAMBDA:vertex");
-    command.add_option("--diffuse", options.diffuse,
-                       "Diffuse estimator: irradiance (default), sh9, lowest-mip, bias:LAMBDA");
+        "Glossy estimator: tent (default), mip, mip-floor, bias:LAMBDA, bias:LAMBDA:vertex.\n"
+        "Of a document's lights, both terms: rsrm (default), rsrm-published,\n"
+        "rsrm-published-columns");
+    command.add_option(
+        "--diffuse", options.diffuse,
+        "Diffuse estimator: irradiance (default), sh9, lowest-mip, bias:LAMBDA, or the lights'");
     command.add_option("--override-material", options.materialOverride,
                        "diffuse=R,G,B,f0=R,G,B,exponent=S for every material");
     command.add_flag("--no-backdrop", options.noBackdrop, "Background 0 with alpha 0");
@@ -233,8 +254,13 @@ core::Result<OpenedFile> openFile(const SceneOptions& options, std::optional<int
     return OpenedFile{std::move(*file), *index};
 }
 
-core::Result<LoadedScene> load(const SceneOptions& options) {
+core::Result<LoadedScene> load(const SceneOptions& given) {
     LoadedScene loaded;
+    SceneOptions options = given;
+    const auto lightsEstimator = takeLightsEstimator(options);
+    if (!lightsEstimator) {
+        return lightsEstimator.error();
+    }
     auto settings = renderSettings(options);
     if (!settings) {
         return settings.error();
@@ -270,6 +296,13 @@ core::Result<LoadedScene> load(const SceneOptions& options) {
         loaded.lightWarnings.merge((*document)->warnings);
         loaded.lights = std::move((*document)->lights);
         loaded.lightsName = (*document)->file;
+    }
+    if (!lightsEstimator->empty()) {
+        if (loaded.lights.empty()) {
+            return usage("'" + *lightsEstimator +
+                         "' is an estimator of a lighting document's lights, and there are none");
+        }
+        loaded.lightsEstimator = *lightsEstimator;
     }
     loaded.camera = *request;
     if (options.time && !std::isfinite(*options.time)) {

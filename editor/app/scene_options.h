@@ -70,6 +70,7 @@ struct LoadedScene {
     DistantLight light;                     ///< empty where the lights stand in its place
     std::vector<lighting::DayLight> lights; ///< of the lighting document
     std::string lightsName;                 ///< its file
+    std::string lightsEstimator = "rsrm";   ///< rsrmLayoutNamed: how their maps are stored
     core::Tally lightWarnings;              ///< of the document and the hour
     int animation = scene::kRestPose;       ///< that the scene is posed by
     double time = 0.0;                      ///< seconds into it

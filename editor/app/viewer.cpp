@@ -64,6 +64,7 @@ core::Result<std::unique_ptr<Viewer>> Viewer::make(gl::Device& device, LoadedSce
     }
     viewer->document_ = std::move(*document);
     warn(loaded.lightWarnings, loaded.lightsName);
+    viewer->lightsEstimator_ = loaded.lightsEstimator;
     viewer->takeLights(std::move(loaded.lights));
     viewer->takeLight(std::move(loaded.light));
     viewer->animation_ = loaded.animation;
@@ -352,7 +353,8 @@ nlohmann::json Viewer::stats() const {
             {"environment", environmentName_},
             {"estimators",
              {{"specular", lighting::estimatorName(settings_.specular)},
-              {"diffuse", lighting::estimatorName(settings_.diffuse)}}},
+              {"diffuse", lighting::estimatorName(settings_.diffuse)},
+              {"lights", lights_.empty() ? "" : lightsEstimator_}}},
             {"plan", toJson(plan_)},
             {"warnings", warnings.counts()},
             {"counters", toJson(device_->counters())},

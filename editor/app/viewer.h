@@ -120,6 +120,7 @@ private:
     core::Tally lightWarnings_;
     bool lightChosen_ = false; ///< by the options or dropped; otherwise a scene brings its own
     std::vector<lighting::DayLight> lights_; ///< of the lighting document
+    std::string lightsEstimator_;            ///< how their maps are stored
     bool dayPlaying_ = false;
     std::size_t daySpeed_ = 0;
     scene::RenderSettings settings_;

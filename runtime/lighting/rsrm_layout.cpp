@@ -35,6 +35,13 @@ double refinedAngle(double u) {
 
 } // namespace
 
+const RsrmLayout* rsrmLayoutNamed(std::string_view name) {
+    return name == "rsrm"                     ? &kRsrm
+           : name == "rsrm-published"         ? &kRsrmPublished
+           : name == "rsrm-published-columns" ? &kRsrmPublishedColumns
+                                              : nullptr;
+}
+
 std::vector<double> columnAngles(RsrmColumns map, int columns) {
     LODESTAR_EXPECT(columns >= 2, "a map has two columns at least");
     std::vector<double> angles;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 #include <vector>
 
 namespace lodestar::lighting {
@@ -47,6 +48,12 @@ inline constexpr RsrmLayout kRsrmPublished{RsrmColumns::UniformHeight, 256,   8,
 /// `rsrm-published-columns`: exact weights in Stone's storage.
 inline constexpr RsrmLayout kRsrmPublishedColumns{RsrmColumns::UniformHeight, 256,   8,
                                                   RsrmEncoding::Unorm8,       false, false};
+
+/// The layout of an estimator's name: rsrm, rsrm-published, rsrm-published-columns; null for
+/// others.
+[[nodiscard]] const RsrmLayout* rsrmLayoutNamed(std::string_view name);
+/// These names, for messages.
+inline constexpr const char* kRsrmNames = "rsrm, rsrm-published, rsrm-published-columns";
 
 /// The angle of each column from the axis, radians: where u2 = j / (columns - 1) for Refined, at
 /// texel centres for UniformHeight.

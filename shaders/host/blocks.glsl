@@ -19,7 +19,7 @@ using glm::vec4;
 #endif
 
 #define LODESTAR_MAX_LIGHTS 16
-#define LODESTAR_MAX_RSRM_LIGHTS 8
+#define LODESTAR_MAX_RSRM_LIGHTS 32
 #define LODESTAR_MAX_SHADOWS 4
 #define LODESTAR_MATERIAL_TEXTURES 8
 // Texture units of a material, the k of uvRows.
