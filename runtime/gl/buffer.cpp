@@ -5,6 +5,8 @@
 
 #include <epoxy/gl.h>
 
+#include "core/contract.h"
+
 namespace lodestar::gl {
 namespace {
 
@@ -64,6 +66,21 @@ void Buffer::update(std::span<const std::byte> bytes) {
     device_->counters().uploadBytes += bytes.size();
 }
 
+void Buffer::updatePart(std::size_t offset, std::span<const std::byte> bytes) {
+    LODESTAR_EXPECT(offset + bytes.size() <= size_, "a part lies within the buffer");
+    const GLenum target = kind_ == BufferKind::Index ? GL_ARRAY_BUFFER : glTarget(kind_);
+    glBindBuffer(target, id_);
+    glBufferSubData(target, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()),
+                    bytes.data());
+    ++device_->counters().uploads;
+    device_->counters().uploadBytes += bytes.size();
+}
+
+void Buffer::bindBlock(unsigned binding, std::size_t offset, std::size_t size) const {
+    glBindBufferRange(GL_UNIFORM_BUFFER, binding, id_, static_cast<GLintptr>(offset),
+                      static_cast<GLsizeiptr>(size));
+}
+
 void Buffer::bindBlock(unsigned binding) const {
     glBindBufferBase(GL_UNIFORM_BUFFER, binding, id_);
 }
@@ -108,11 +125,15 @@ void VertexArray::bind() const {
     glBindVertexArray(id_);
 }
 
-void drawIndexed(Device& device, DrawMode mode, int indexCount) {
+void drawIndexed(Device& device, DrawMode mode, int indexCount, int instances) {
     const GLenum glMode = mode == DrawMode::Points  ? GL_POINTS
                           : mode == DrawMode::Lines ? GL_LINES
                                                     : GL_TRIANGLES;
-    glDrawElements(glMode, indexCount, GL_UNSIGNED_INT, nullptr);
+    if (instances == 1) {
+        glDrawElements(glMode, indexCount, GL_UNSIGNED_INT, nullptr);
+    } else {
+        glDrawElementsInstanced(glMode, indexCount, GL_UNSIGNED_INT, nullptr, instances);
+    }
     ++device.counters().draws;
 }
 

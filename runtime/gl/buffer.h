@@ -23,8 +23,12 @@ public:
 
     /// Replaces the content; the storage grows if it must.
     void update(std::span<const std::byte> bytes);
+    /// Replaces a part of the content. @pre it lies within what the buffer has held
+    void updatePart(std::size_t offset, std::span<const std::byte> bytes);
     /// Binds a uniform buffer to a block's binding point.
     void bindBlock(unsigned binding) const;
+    /// The same with a part of it. @pre offset is a multiple of Capabilities::uniformAlignment
+    void bindBlock(unsigned binding, std::size_t offset, std::size_t size) const;
     void bind() const;
     [[nodiscard]] unsigned id() const { return id_; }
 
@@ -68,7 +72,7 @@ private:
 
 /// Draws indexed triangles (or lines, points) of 32-bit indices from the bound vertex array.
 enum class DrawMode { Points, Lines, Triangles };
-void drawIndexed(Device& device, DrawMode mode, int indexCount);
+void drawIndexed(Device& device, DrawMode mode, int indexCount, int instances = 1);
 /// Draws one triangle that covers the viewport; the vertex shader makes it from gl_VertexID.
 void drawFullScreen(Device& device);
 

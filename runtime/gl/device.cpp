@@ -55,7 +55,9 @@ core::Result<std::unique_ptr<Device>> Device::create() {
                              text(GL_VENDOR),
                              epoxy_gl_version() >= 43 || epoxy_has_gl_extension("GL_KHR_debug"),
                              integer(GL_MAX_TEXTURE_SIZE),
-                             integer(GL_MAX_CUBE_MAP_TEXTURE_SIZE)};
+                             integer(GL_MAX_CUBE_MAP_TEXTURE_SIZE),
+                             integer(GL_MAX_TEXTURE_BUFFER_SIZE),
+                             integer(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT)};
     if (device->capabilities_.debugOutput) {
         glEnable(GL_DEBUG_OUTPUT);
         glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);

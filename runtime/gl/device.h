@@ -39,6 +39,8 @@ struct Capabilities {
     bool debugOutput = false;
     int maxTextureSize = 0;
     int maxCubeSize = 0;
+    int maxBufferTexels = 0;  ///< of a buffer texture
+    int uniformAlignment = 1; ///< of a uniform block's offset in its buffer, bytes
 };
 
 /// The current context. Must outlive every object made for it, and is used on its thread only.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 
 #include "lighting/lookup.h"
 
@@ -175,6 +176,30 @@ Effect shadowEffect(const PlanInput& input, const Receivers& receivers, const Rs
     return effect;
 }
 
+/// By what draws share: features, so that programs switch seldom, then material and geometry, so
+/// that neighbours are batches.
+auto sharing(const DrawView& draw) {
+    return std::tuple(draw.features, draw.material, draw.geometry, draw.mirrored);
+}
+
+void sortByShared(const PlanInput& input, std::vector<std::size_t>& order) {
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return sharing(input.draws[a]) < sharing(input.draws[b]);
+    });
+}
+
+std::vector<Batch> batchesOf(const PlanInput& input, const std::vector<std::size_t>& order) {
+    std::vector<Batch> batches;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        if (i > 0 && sharing(input.draws[order[i]]) == sharing(input.draws[order[i - 1]])) {
+            ++batches.back().count;
+        } else {
+            batches.push_back({i, 1, input.draws[order[i]].mirrored});
+        }
+    }
+    return batches;
+}
+
 /// Skies and suns: blended when their hour asks for it; suns that are up are hidden by casters.
 void planRsrmLights(const PlanInput& input, const Receivers& receivers, EffectPlan& result) {
     std::vector<std::size_t> casters;
@@ -183,6 +208,8 @@ void planRsrmLights(const PlanInput& input, const Receivers& receivers, EffectPl
             casters.push_back(i);
         }
     }
+    sortByShared(input, casters);
+    const std::vector<Batch> casterBatches = batchesOf(input, casters);
     for (std::size_t i = 0; i < input.rsrmLights.size(); ++i) {
         const RsrmLightView& light = input.rsrmLights[i];
         LitLight lit{i, false, -1, false};
@@ -190,13 +217,14 @@ void planRsrmLights(const PlanInput& input, const Receivers& receivers, EffectPl
         lit.blend = blend.decision == Decision::Run;
         result.effects.push_back(std::move(blend));
         if (light.shadow >= 0) {
-            Effect shadow = shadowEffect(input, receivers, light, casters.size());
+            Effect shadow = shadowEffect(input, receivers, light, casterBatches.size());
             lit.drawShadow = shadow.decision == Decision::Run;
             lit.shadow = receivers.lit && !casters.empty() ? light.shadow : -1;
             result.effects.push_back(std::move(shadow));
         }
         if (lit.drawShadow) {
             result.casters = casters;
+            result.casterBatches = casterBatches;
         }
         if (light.shines && (receivers.lit || input.backdrop)) {
             result.rsrmLights.push_back(lit);
@@ -252,43 +280,62 @@ Features lightFeatures(const PlanInput& input, const EffectPlan& result) {
     Features features = input.environment.present ? bit(Feature::Environment) : 0u;
     features |= result.rsrmLights.empty() ? 0u : bit(Feature::RsrmLights);
     features |= result.shadowedLights() > 0 ? bit(Feature::Shadows) : 0u;
+    features |= input.lightCount > 0 ? bit(Feature::PunctualLights) : 0u;
+    return features;
+}
+
+/// An effect for each draw; the call to the driver is the first's of its batch.
+void describeDraws(const PlanInput& input, EffectPlan& result) {
+    std::vector<std::size_t> leader(input.draws.size());
+    for (const Batch& batch : result.batches) {
+        for (std::size_t i = 0; i < batch.count; ++i) {
+            leader[result.drawOrder[batch.first + i]] = result.drawOrder[batch.first];
+        }
+    }
+    for (std::size_t i = 0; i < input.draws.size(); ++i) {
+        const DrawView& draw = input.draws[i];
+        Effect effect{"draw", draw.subject, Decision::Skip, "outside the view", {}};
+        if (draw.visible) {
+            effect.decision = Decision::Run;
+            effect.reason = leader[i] == i ? "inside the view"
+                                           : "inside the view, in one call with '" +
+                                                 input.draws[leader[i]].subject + "'";
+            effect.cost.draws = leader[i] == i ? 1 : 0;
+        }
+        result.effects.push_back(std::move(effect));
+    }
+}
+
+Features featuresOf(const PlanInput& input, const DrawView& draw, Features lights) {
+    if (!draw.lit) {
+        return draw.features;
+    }
+    Features features = draw.features | lights;
+    if (has(features, Feature::RsrmLights) && !input.rsrmPublished &&
+        draw.sharpest > input.rsrmGreatestExponent) {
+        features |= bit(Feature::RsrmMirror);
+    }
     return features;
 }
 
 void planDraws(const PlanInput& input, EffectPlan& result) {
     std::vector<std::size_t> blended;
     for (std::size_t i = 0; i < input.draws.size(); ++i) {
-        const DrawView& draw = input.draws[i];
-        if (draw.visible) {
-            (draw.blended ? blended : result.drawOrder).push_back(i);
+        if (input.draws[i].visible) {
+            (input.draws[i].blended ? blended : result.drawOrder).push_back(i);
         }
-        result.effects.push_back({"draw",
-                                  draw.subject,
-                                  draw.visible ? Decision::Run : Decision::Skip,
-                                  draw.visible ? "inside the view" : "outside the view",
-                                  {draw.visible ? 1u : 0u, 0, 0, 0}});
     }
-    // Opaque draws that share features follow each other, so that programs switch seldom.
-    std::stable_sort(result.drawOrder.begin(), result.drawOrder.end(),
-                     [&](std::size_t a, std::size_t b) {
-                         return input.draws[a].features < input.draws[b].features;
-                     });
+    sortByShared(input, result.drawOrder);
     std::stable_sort(blended.begin(), blended.end(), [&](std::size_t a, std::size_t b) {
         return input.draws[a].distance > input.draws[b].distance;
     });
     result.drawOrder.insert(result.drawOrder.end(), blended.begin(), blended.end());
-    for (std::size_t index : result.drawOrder) {
-        const bool lit = input.draws[index].lit;
-        Features features = input.draws[index].features | (lit ? lightFeatures(input, result) : 0u);
-        if (lit && input.lightCount > 0) {
-            features |= bit(Feature::PunctualLights);
-        }
-        if (has(features, Feature::RsrmLights) && !input.rsrmPublished &&
-            input.draws[index].sharpest > input.rsrmGreatestExponent) {
-            features |= bit(Feature::RsrmMirror);
-        }
-        result.drawFeatures.push_back(features);
+    result.batches = batchesOf(input, result.drawOrder);
+    const Features lights = lightFeatures(input, result);
+    for (const std::size_t index : result.drawOrder) {
+        result.drawFeatures.push_back(featuresOf(input, input.draws[index], lights));
     }
+    describeDraws(input, result);
 }
 
 /// The environment, the lights' gradients, or both; nothing is drawn where there is neither.

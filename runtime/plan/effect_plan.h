@@ -65,6 +65,10 @@ struct DrawView {
     /// Phong exponent of its sharpest lookup; infinite where a texture gives it.
     double sharpest = std::numeric_limits<double>::infinity();
     float distance = 0.0f; ///< metres along the view, for the order of blended draws
+    /// Draws of one geometry, one material and one winding are one call to the driver.
+    std::uint64_t geometry = 0;
+    std::uint32_t material = 0;
+    bool mirrored = false; ///< its triangles wind the other way
     int indexCount = 0;
     std::uint64_t morphBytes = 0; ///< of its vertices with morph targets added; 0: it has none
     bool weightsChanged = true;   ///< of its morph targets, since they were last added
@@ -125,6 +129,13 @@ struct Effect {
     Cost cost;
 };
 
+/// Neighbours in an order of draws that are one call to the driver.
+struct Batch {
+    std::size_t first = 0;
+    std::size_t count = 0;
+    bool mirrored = false; ///< DrawView::mirrored of them all
+};
+
 /// A sky or a sun that a frame is lit by.
 struct LitLight {
     std::size_t light = 0;   ///< into PlanInput::rsrmLights
@@ -139,8 +150,10 @@ struct EffectPlan {
     std::vector<std::size_t>
         drawOrder; ///< indices into PlanInput::draws: opaque, then blended back to front
     std::vector<Features> drawFeatures; ///< shader features, in drawOrder's order
+    std::vector<Batch> batches;         ///< of drawOrder
     std::vector<LitLight> rsrmLights;   ///< those with a shadow map first
     bool rsrmPublished = false;         ///< the layout of their maps
+    std::vector<Batch> casterBatches;   ///< of casters
     std::vector<std::size_t> casters;   ///< indices into PlanInput::draws, of every map drawn
     /// Draws whose joints and morphs must be up to date: those drawn, and the casters.
     std::vector<std::size_t> deformed;

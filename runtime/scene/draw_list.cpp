@@ -64,8 +64,10 @@ void setTerms(plan::DrawView& draw, const io::GltfMaterial& material,
                          leastExponent(material, settings) < 1.0f);
 }
 
-plan::DrawView drawView(const Scene& scene, const DrawItem& item, const View& view,
-                        const glm::mat4& clipFromWorld, const RenderSettings& settings) {
+/// @param index of the item among all
+plan::DrawView drawView(const Scene& scene, const DrawItem& item, std::size_t index,
+                        const View& view, const glm::mat4& clipFromWorld,
+                        const RenderSettings& settings) {
     const Node& node = scene.nodes[static_cast<std::size_t>(item.node)];
     const auto mesh = static_cast<std::size_t>(item.mesh);
     const auto part = static_cast<std::size_t>(item.primitive);
@@ -84,6 +86,12 @@ plan::DrawView drawView(const Scene& scene, const DrawItem& item, const View& vi
                                                 : primitive.positions.size() * sizeof(glm::vec3) +
                                                       primitive.normals.size() * sizeof(glm::vec3) +
                                                       primitive.tangents.size() * sizeof(glm::vec4);
+    // Morphed vertices are a draw's own.
+    draw.geometry = primitive.targets.empty()
+                        ? static_cast<std::uint64_t>(mesh) << 32 | static_cast<std::uint64_t>(part)
+                        : ~static_cast<std::uint64_t>(index);
+    draw.material = static_cast<std::uint32_t>(primitive.material + 1);
+    draw.mirrored = glm::determinant(glm::mat3(node.worldFromNode)) < 0.0f;
     draw.visible = mayBeSeen(bounds, clipFromWorld);
     draw.blended = plan::has(draw.features, Feature::AlphaBlend);
     draw.indexCount = static_cast<int>(primitive.indices.size());
@@ -206,7 +214,8 @@ plan::PlanInput planInput(const Scene& scene, const View& view, const RenderSett
     plan::PlanInput input;
     const glm::mat4 clipFromWorld = view.clipFromWorld();
     for (const DrawItem& item : drawItems(scene)) {
-        input.draws.push_back(drawView(scene, item, view, clipFromWorld, settings));
+        input.draws.push_back(
+            drawView(scene, item, input.draws.size(), view, clipFromWorld, settings));
     }
     const std::vector<bool> worn = wornSkins(scene);
     for (std::size_t s = 0; s < worn.size(); ++s) {

@@ -137,6 +137,9 @@ void GpuDeformation::describe(const Scene& scene, const std::vector<DrawItem>& i
     joints_ = jointRows(scene, firstTexels_);
     input.jointsMoved = joints_ != uploadedJoints_;
     for (std::size_t i = 0; i < morphs_.size(); ++i) {
+        if (plan::has(input.draws[i].features, plan::Feature::Skinning)) {
+            input.draws[i].mirrored = mirrored(componentOf(scene, items[i]).skin);
+        }
         if (morphs_[i]) {
             input.draws[i].weightsChanged =
                 morphs_[i]->uploaded != componentOf(scene, items[i]).weights;

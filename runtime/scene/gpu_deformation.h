@@ -34,7 +34,7 @@ public:
     [[nodiscard]] static core::Result<GpuDeformation> make(gl::Device& device, const Scene& scene,
                                                            const std::vector<DrawItem>& items);
 
-    /// Tells the planner what has not changed since the last upload.
+    /// Tells the planner what has not changed since the last upload, and how skins wind.
     void describe(const Scene& scene, const std::vector<DrawItem>& items, plan::PlanInput& input);
     /// Uploads what the plan's draws need and has changed.
     void prepare(gl::Device& device, const Scene& scene, const std::vector<DrawItem>& items,
@@ -44,12 +44,13 @@ public:
     void bind() const;
     /// Where a skin's joints begin in the buffer texture; 0 for none.
     [[nodiscard]] float firstTexel(int skin) const;
-    /// Whether a skin's joints turn most of what follows them inside out, in the pose described.
-    [[nodiscard]] bool mirrored(int skin) const;
     /// The vertices of a draw item that is morphed; null for others.
     [[nodiscard]] const gl::VertexArray* vertices(std::size_t item) const;
 
 private:
+    /// Whether a skin's joints turn most of what follows them inside out, in the pose described.
+    [[nodiscard]] bool mirrored(int skin) const;
+
     struct Morph {
         std::vector<float> uploaded; ///< the weights that the buffers hold; empty: none yet
         gl::VertexArray vertices;

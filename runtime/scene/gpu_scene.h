@@ -48,10 +48,11 @@ enum TextureUnit : int {
     kRsrmLambertUnit,
     kRsrmGradientUnit,
     kShadowUnit,
+    kInstanceUnit,
 };
 
 /// The names of the samplers, by unit.
-inline constexpr std::array<const char*, 15> kSamplerNames = {
+inline constexpr std::array<const char*, 16> kSamplerNames = {
     "uBaseColorTexture", "uMetallicRoughnessTexture",
     "uNormalTexture",    "uOcclusionTexture",
     "uEmissiveTexture",  "uExponentTexture",
@@ -59,7 +60,7 @@ inline constexpr std::array<const char*, 15> kSamplerNames = {
     "uEnvironment",      "uIrradiance",
     "uJoints",           "uRsrmMaps",
     "uRsrmLamberts",     "uRsrmGradients",
-    "uShadows"};
+    "uShadows",          "uInstances"};
 
 class GpuScene {
 public:

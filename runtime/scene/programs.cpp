@@ -122,10 +122,10 @@ core::Result<void> Programs::add(Variants& variants, const char* vertexFile,
         made->setSampler(kSamplerNames[unit], static_cast<int>(unit));
     }
     made->setBlock("LodestarFrame", kFrameBinding);
-    made->setBlock("LodestarDraw", kDrawBinding);
     made->setBlock("LodestarMaterial", kMaterialBinding);
     made->setBlock("LodestarRsrmLights", kRsrmBinding);
-    variants.emplace(defines, std::move(*made));
+    const int firstInstance = made->uniform("uFirstInstance");
+    variants.emplace(defines, MeshProgram{std::move(*made), firstInstance});
     return {};
 }
 
@@ -152,18 +152,18 @@ core::Result<void> Programs::compile(const plan::PlanInput& input, const plan::E
     return {};
 }
 
-const gl::Program& Programs::mesh(plan::Features features, const plan::EffectPlan& plan,
+const MeshProgram& Programs::mesh(plan::Features features, const plan::EffectPlan& plan,
                                   const RenderSettings& settings) const {
     return meshes_.at(definesFor(features, plan, settings));
 }
 
-const gl::Program& Programs::depth(plan::Features features, const plan::EffectPlan& plan,
+const MeshProgram& Programs::depth(plan::Features features, const plan::EffectPlan& plan,
                                    const RenderSettings& settings) const {
     return depths_.at(definesFor(depthFeatures(features), plan, settings));
 }
 
 const gl::Program& Programs::backdrop(const plan::EffectPlan& plan) const {
-    return backdrops_.at(backdropDefines(plan));
+    return backdrops_.at(backdropDefines(plan)).program;
 }
 
 } // namespace lodestar::scene

@@ -12,7 +12,13 @@
 namespace lodestar::scene {
 
 /// Binding points of the uniform blocks, shared by all programs.
-enum BlockBinding : unsigned { kFrameBinding, kDrawBinding, kMaterialBinding, kRsrmBinding };
+enum BlockBinding : unsigned { kFrameBinding, kMaterialBinding, kRsrmBinding };
+
+/// A program and where it takes the place of a batch's first instance, -1 where it has none.
+struct MeshProgram {
+    gl::Program program;
+    int firstInstance = -1;
+};
 
 class Programs {
 public:
@@ -26,15 +32,15 @@ public:
                                              const RenderSettings& settings);
 
     /// @pre compiled
-    [[nodiscard]] const gl::Program& mesh(plan::Features features, const plan::EffectPlan& plan,
+    [[nodiscard]] const MeshProgram& mesh(plan::Features features, const plan::EffectPlan& plan,
                                           const RenderSettings& settings) const;
     [[nodiscard]] const gl::Program& backdrop(const plan::EffectPlan& plan) const;
     /// Depth alone, of a caster with these features.
-    [[nodiscard]] const gl::Program& depth(plan::Features features, const plan::EffectPlan& plan,
+    [[nodiscard]] const MeshProgram& depth(plan::Features features, const plan::EffectPlan& plan,
                                            const RenderSettings& settings) const;
 
 private:
-    using Variants = std::map<gl::Defines, gl::Program>;
+    using Variants = std::map<gl::Defines, MeshProgram>;
     [[nodiscard]] core::Result<void> add(Variants& variants, const char* vertexFile,
                                          const char* fragmentFile, const gl::Defines& defines);
 

@@ -13,6 +13,7 @@
 #include "gl/timer.h"
 #include "scene/draw_list.h"
 #include "scene/frame_parts.h"
+#include "scene/gpu_batches.h"
 #include "scene/gpu_deformation.h"
 #include "scene/gpu_environment.h"
 #include "scene/gpu_lights.h"
@@ -40,6 +41,15 @@ double millisecondsSince(Clock::time_point start) {
 
 } // namespace
 
+/// What the batches of a pass have set so far.
+struct PassState {
+    const MeshProgram* program = nullptr;
+    plan::Features features = 0;
+    const io::GltfMaterial* material = nullptr;
+    const gl::VertexArray* vertices = nullptr;
+    std::optional<bool> twoSided, mirrored;
+};
+
 struct Renderer::State {
     State(gl::Device& glDevice, const Scene& drawn, GpuScene uploaded, GpuDeformation deformed)
         : device(glDevice), scene(drawn), gpu(std::move(uploaded)), items(drawItems(drawn)),
@@ -53,7 +63,9 @@ struct Renderer::State {
     GpuDeformation deformation;
     gl::VertexArray fullScreen;
     gl::Timer timer;
-    gl::Buffer frameBuffer, drawBuffer, materialBuffer, lightBuffer;
+    gl::Buffer frameBuffer, lightBuffer;
+    GpuInstances instances;
+    GpuMaterials materials;
     gl::Framebuffer target;
     Programs programs;
     std::optional<Presenter> presenter;
@@ -74,12 +86,14 @@ struct Renderer::State {
     [[nodiscard]] plan::PlanInput describe(const View& view, const RenderSettings& settings);
     core::Result<void> drawShadows(const plan::EffectPlan& plan, const RenderSettings& settings,
                                    const plan::PlanInput& input);
-    void drawCaster(std::size_t index, plan::Features features, const plan::EffectPlan& plan,
-                    const RenderSettings& settings);
     void drawBackdrop(const plan::EffectPlan& plan);
-    blocks::LodestarDraw drawBlock(const DrawItem& item, plan::Features features) const;
-    void drawItem(std::size_t index, plan::Features features, const plan::EffectPlan& plan,
-                  const RenderSettings& settings);
+    core::Result<void> placeInstances(const plan::EffectPlan& plan);
+    void use(const MeshProgram& program, const plan::Batch& batch, std::size_t before);
+    void drawBatch(const plan::Batch& batch, const plan::EffectPlan& plan,
+                   const RenderSettings& settings, PassState& state);
+    void drawCasters(const plan::EffectPlan& plan, const RenderSettings& settings,
+                     const plan::PlanInput& input);
+    void drawInstances(std::size_t index, const plan::Batch& batch, PassState& state);
 };
 
 void Renderer::State::drawBackdrop(const plan::EffectPlan& plan) {
@@ -92,71 +106,97 @@ void Renderer::State::drawBackdrop(const plan::EffectPlan& plan) {
     glDepthMask(GL_TRUE);
 }
 
-blocks::LodestarDraw Renderer::State::drawBlock(const DrawItem& item,
-                                                plan::Features features) const {
-    const Node& node = scene.nodes[static_cast<std::size_t>(item.node)];
-    blocks::LodestarDraw draw{};
-    draw.worldFromModel = node.worldFromNode;
-    // The adjugate's transpose stands for the inverse transpose: it exists for singular transforms,
-    // and its sign follows the determinant's, which the front-face rule undoes.
-    const glm::mat3 m(node.worldFromNode);
-    float sign = glm::determinant(m) < 0.0f ? -1.0f : 1.0f;
-    draw.normalFromModel = glm::mat4(
-        sign * glm::mat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])));
-    if (plan::has(features, plan::Feature::Skinning)) {
-        const int skin =
-            std::get<MeshComponent>(node.components[static_cast<std::size_t>(item.component)]).skin;
-        draw.skin.x = deformation.firstTexel(skin);
-        sign = deformation.mirrored(skin) ? -1.0f : 1.0f;
+/// Where the instances of all batches stand: those of the picture, then the casters.
+core::Result<void> Renderer::State::placeInstances(const plan::EffectPlan& plan) {
+    std::vector<Instance> placed;
+    placed.reserve(plan.drawOrder.size() + plan.casters.size());
+    for (const std::vector<std::size_t>* order : {&plan.drawOrder, &plan.casters}) {
+        for (const std::size_t index : *order) {
+            const DrawItem& item = items[index];
+            const Node& node = scene.nodes[static_cast<std::size_t>(item.node)];
+            const glm::mat4 rows = glm::transpose(node.worldFromNode);
+            const int skin =
+                std::get<MeshComponent>(node.components[static_cast<std::size_t>(item.component)])
+                    .skin;
+            placed.push_back(
+                {{rows[0], rows[1], rows[2]}, {deformation.firstTexel(skin), 0.0f, 0.0f, 0.0f}});
+        }
     }
-    draw.skin.w = sign;
-    return draw;
+    return instances.upload(device, std::move(placed));
 }
 
-void Renderer::State::drawItem(std::size_t index, plan::Features features,
-                               const plan::EffectPlan& plan, const RenderSettings& settings) {
+/// @param before instances that stand before the order's first
+void Renderer::State::use(const MeshProgram& program, const plan::Batch& batch,
+                          std::size_t before) {
+    program.program.use();
+    glUniform1i(program.firstInstance, static_cast<int>(before + batch.first));
+}
+
+/// @param index of the batch's first draw
+void Renderer::State::drawInstances(std::size_t index, const plan::Batch& batch, PassState& state) {
     const DrawItem& item = items[index];
     const GpuPrimitive& part = gpu.primitive(item.mesh, item.primitive);
-    const io::GltfMaterial& material =
-        materialOf(scene, scene.meshes[static_cast<std::size_t>(item.mesh)]
-                              .primitives[static_cast<std::size_t>(item.primitive)]);
-    programs.mesh(features, plan, settings).use();
-    const blocks::LodestarDraw draw = drawBlock(item, features);
-    drawBuffer.update(bytesOf(draw));
-    drawBuffer.bindBlock(kDrawBinding);
-    const blocks::LodestarMaterial block = materialBlock(material, settings.materialOverride);
-    materialBuffer.update(bytesOf(block));
-    materialBuffer.bindBlock(kMaterialBinding);
-    gpu.bindTextures(material);
-    const bool twoSided = material.doubleSided || part.mode != gl::DrawMode::Triangles;
-    twoSided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
-    glFrontFace(draw.skin.w < 0.0f ? GL_CW : GL_CCW);
-    const bool blended = plan::has(features, plan::Feature::AlphaBlend);
-    blended ? glEnable(GL_BLEND) : glDisable(GL_BLEND);
-    glDepthMask(blended ? GL_FALSE : GL_TRUE);
     const gl::VertexArray* morphed = deformation.vertices(index);
-    (morphed != nullptr ? *morphed : part.vertices).bind();
-    gl::drawIndexed(device, part.mode, part.indexCount);
+    const gl::VertexArray* vertices = morphed != nullptr ? morphed : &part.vertices;
+    if (state.vertices != vertices) {
+        vertices->bind();
+        state.vertices = vertices;
+    }
+    gl::drawIndexed(device, part.mode, part.indexCount, static_cast<int>(batch.count));
 }
 
-void Renderer::State::drawCaster(std::size_t index, plan::Features features,
-                                 const plan::EffectPlan& plan, const RenderSettings& settings) {
+void Renderer::State::drawBatch(const plan::Batch& batch, const plan::EffectPlan& plan,
+                                const RenderSettings& settings, PassState& state) {
+    const std::size_t index = plan.drawOrder[batch.first];
     const DrawItem& item = items[index];
-    const GpuPrimitive& part = gpu.primitive(item.mesh, item.primitive);
-    const io::GltfMaterial& material =
-        materialOf(scene, scene.meshes[static_cast<std::size_t>(item.mesh)]
-                              .primitives[static_cast<std::size_t>(item.primitive)]);
-    programs.depth(features, plan, settings).use();
-    drawBuffer.update(bytesOf(drawBlock(item, features)));
-    drawBuffer.bindBlock(kDrawBinding);
-    if (plan::has(features, plan::Feature::AlphaMask)) {
-        materialBuffer.update(bytesOf(materialBlock(material, settings.materialOverride)));
+    const io::GltfPrimitive& primitive = scene.meshes[static_cast<std::size_t>(item.mesh)]
+                                             .primitives[static_cast<std::size_t>(item.primitive)];
+    const io::GltfMaterial& material = materialOf(scene, primitive);
+    const plan::Features features = plan.drawFeatures[batch.first];
+    if (state.program == nullptr || state.features != features) {
+        state.program = &programs.mesh(features, plan, settings);
+        state.features = features;
+        const bool blended = plan::has(features, plan::Feature::AlphaBlend);
+        blended ? glEnable(GL_BLEND) : glDisable(GL_BLEND);
+        glDepthMask(blended ? GL_FALSE : GL_TRUE);
+    }
+    use(*state.program, batch, 0);
+    if (state.material != &material) {
+        state.material = &material;
+        materials.bind(primitive.material);
         gpu.bindTextures(material);
     }
-    materialBuffer.bindBlock(kMaterialBinding);
-    const gl::VertexArray* morphed = deformation.vertices(index);
-    (morphed != nullptr ? *morphed : part.vertices).bind();
-    gl::drawIndexed(device, part.mode, part.indexCount);
+    const bool twoSided = material.doubleSided ||
+                          gpu.primitive(item.mesh, item.primitive).mode != gl::DrawMode::Triangles;
+    if (state.twoSided != twoSided) {
+        state.twoSided = twoSided;
+        twoSided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
+    }
+    if (state.mirrored != batch.mirrored) {
+        state.mirrored = batch.mirrored;
+        glFrontFace(batch.mirrored ? GL_CW : GL_CCW);
+    }
+    drawInstances(index, batch, state);
+}
+
+void Renderer::State::drawCasters(const plan::EffectPlan& plan, const RenderSettings& settings,
+                                  const plan::PlanInput& input) {
+    PassState state;
+    for (const plan::Batch& batch : plan.casterBatches) {
+        const std::size_t index = plan.casters[batch.first];
+        const plan::Features features = input.draws[index].features;
+        if (state.program == nullptr || state.features != features) {
+            state.program = &programs.depth(features, plan, settings);
+            state.features = features;
+        }
+        use(*state.program, batch, plan.drawOrder.size());
+        if (plan::has(features, plan::Feature::AlphaMask)) {
+            const int material = static_cast<int>(input.draws[index].material) - 1;
+            materials.bind(material);
+            gpu.bindTextures(scene.materials[static_cast<std::size_t>(material)]);
+        }
+        drawInstances(index, batch, state);
+    }
 }
 
 /// The maps that the plan draws, and the block that says how all are read.
@@ -188,9 +228,8 @@ core::Result<void> Renderer::State::drawShadows(const plan::EffectPlan& plan,
         frameBuffer.update(bytesOf(block));
         frameBuffer.bindBlock(kFrameBinding);
         deformation.bind();
-        for (const std::size_t caster : plan.casters) {
-            drawCaster(caster, input.draws[caster].features, plan, settings);
-        }
+        instances.bind();
+        drawCasters(plan, settings, input);
         glDisable(GL_POLYGON_OFFSET_FILL);
     }
     blocks::LodestarRsrmLights block{};
@@ -217,14 +256,17 @@ void Renderer::State::drawTile(const plan::EffectPlan& plan, const RenderSetting
     shadows.bind();
     lightBuffer.bindBlock(kRsrmBinding);
     deformation.bind();
+    instances.bind();
     bool backdropDrawn = !plan.backdrop;
-    for (std::size_t i = 0; i < plan.drawOrder.size(); ++i) {
-        const plan::Features features = plan.drawFeatures[i];
-        if (!backdropDrawn && plan::has(features, plan::Feature::AlphaBlend)) {
+    PassState state;
+    for (const plan::Batch& batch : plan.batches) {
+        if (!backdropDrawn &&
+            plan::has(plan.drawFeatures[batch.first], plan::Feature::AlphaBlend)) {
             drawBackdrop(plan);
             backdropDrawn = true;
+            state = {};
         }
-        drawItem(plan.drawOrder[i], features, plan, settings);
+        drawBatch(batch, plan, settings, state);
     }
     if (!backdropDrawn) {
         drawBackdrop(plan);
@@ -247,10 +289,6 @@ core::Result<std::unique_ptr<Renderer>> Renderer::make(gl::Device& device, const
         std::make_unique<State>(device, scene, std::move(*uploaded), std::move(*deformation));
     state->frameBuffer =
         gl::Buffer(device, gl::BufferKind::Uniform, bytesOf(blocks::LodestarFrame{}));
-    state->drawBuffer =
-        gl::Buffer(device, gl::BufferKind::Uniform, bytesOf(blocks::LodestarDraw{}));
-    state->materialBuffer =
-        gl::Buffer(device, gl::BufferKind::Uniform, bytesOf(blocks::LodestarMaterial{}));
     state->lightBuffer =
         gl::Buffer(device, gl::BufferKind::Uniform, bytesOf(blocks::LodestarRsrmLights{}));
     return std::unique_ptr<Renderer>(new Renderer(std::move(state)));
@@ -369,6 +407,10 @@ core::Result<Frame> Renderer::State::drawFrame(const View& view, const RenderSet
     });
     auto prepared = timed("prepare", [&] {
         deformation.prepare(device, scene, items, gpu, frame.plan);
+        materials.prepare(device, scene, settings.materialOverride);
+        if (auto placed = placeInstances(frame.plan); !placed) {
+            return placed;
+        }
         auto made = environment.prepare(device, frame.plan.prepare);
         return made ? lights.prepare(device, frame.plan) : made;
     });

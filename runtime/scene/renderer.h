@@ -28,6 +28,7 @@ struct MaterialOverride {
     glm::vec3 diffuse{1.0f};
     glm::vec3 f0{0.0f};
     float exponent = 0.0f;
+    bool operator==(const MaterialOverride&) const = default;
 };
 
 struct RenderSettings {

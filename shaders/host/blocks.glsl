@@ -57,12 +57,6 @@ LODESTAR_BLOCK(LodestarRsrmLights)
     vec4 shadowTexel[LODESTAR_MAX_SHADOWS];     ///< x: metres of one of its texels
 LODESTAR_BLOCK_END(LodestarRsrmLights)
 
-LODESTAR_BLOCK(LodestarDraw)
-    mat4 worldFromModel;
-    mat4 normalFromModel; ///< inverse transpose of its 3x3 part
-    vec4 skin;            ///< x: first texel of its joints, w: -1 if it is mirrored, else 1
-LODESTAR_BLOCK_END(LodestarDraw)
-
 LODESTAR_BLOCK(LodestarMaterial)
     vec4 baseColor;
     vec4 emissive; ///< rgb, w normal-map scale

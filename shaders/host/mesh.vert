@@ -8,6 +8,17 @@ layout(location = 2) in vec4 aTangent;
 layout(location = 3) in vec2 aUv0;
 layout(location = 4) in vec2 aUv1;
 layout(location = 5) in vec4 aColor;
+uniform samplerBuffer uInstances; // of each three rows of worldFromModel, then x: first texel of its joints
+uniform int uFirstInstance;
+
+vec4 instanceTexel(int k) {
+    return texelFetch(uInstances, 4 * (uFirstInstance + gl_InstanceID) + k);
+}
+
+mat4 fromRows(vec4 x, vec4 y, vec4 z) {
+    return transpose(mat4(x, y, z, vec4(0.0, 0.0, 0.0, 1.0)));
+}
+
 #if LODESTAR_SKINNING
 layout(location = 6) in vec4 aJoints0;
 layout(location = 7) in vec4 aWeights0;
@@ -19,7 +30,7 @@ layout(location = 9) in vec4 aWeights1;
 uniform samplerBuffer uJoints; // three rows of worldFromMesh a joint
 
 void addJoint(float joint, float weight, inout vec4 rows[3]) {
-    int texel = int(skin.x + 0.5) + 3 * int(joint + 0.5);
+    int texel = int(instanceTexel(3).x + 0.5) + 3 * int(joint + 0.5);
     for (int i = 0; i < 3; ++i) {
         rows[i] += weight * texelFetch(uJoints, texel + i);
     }
@@ -34,8 +45,9 @@ mat4 skinned() {
         addJoint(aJoints1[k], aWeights1[k], rows);
 #endif
     }
-    return transpose(mat4(rows[0], rows[1], rows[2], vec4(0.0, 0.0, 0.0, 1.0)));
+    return fromRows(rows[0], rows[1], rows[2]);
 }
+#endif
 
 /// The cofactors turned by the determinant's sign: along the inverse transpose, and there for
 /// singular matrices too.
@@ -43,7 +55,6 @@ mat3 normalMatrix(mat3 m) {
     mat3 cofactors = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
     return dot(m[0], cofactors[0]) < 0.0 ? -cofactors : cofactors;
 }
-#endif
 
 out vec3 vPosition;
 out vec3 vNormal;
@@ -56,15 +67,13 @@ out float vLeastLevel;
 void main() {
 #if LODESTAR_SKINNING
     mat4 worldFromMesh = skinned();
-    mat3 worldFromNormal = normalMatrix(mat3(worldFromMesh));
 #else
-    mat4 worldFromMesh = worldFromModel;
-    mat3 worldFromNormal = mat3(normalFromModel);
+    mat4 worldFromMesh = fromRows(instanceTexel(0), instanceTexel(1), instanceTexel(2));
 #endif
     vec4 world = worldFromMesh * vec4(aPosition, 1.0);
     vPosition = world.xyz;
 #if LODESTAR_NORMALS
-    vNormal = worldFromNormal * aNormal;
+    vNormal = normalMatrix(mat3(worldFromMesh)) * aNormal;
 #if LODESTAR_SKINNING
     vNormal = lodestar_safeNormalize(vNormal, vec3(0.0)); // its length differs from vertex to vertex
 #endif
