@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gl/buffer.h"
 
+#include <cstdint>
 #include <utility>
 
 #include <epoxy/gl.h>
@@ -30,6 +31,14 @@ Buffer::Buffer(Device& device, BufferKind kind, std::span<const std::byte> bytes
     : device_(&device), kind_(kind) {
     glGenBuffers(1, &id_);
     update(bytes);
+}
+
+Buffer::Buffer(Device& device, BufferKind kind, std::size_t size)
+    : device_(&device), kind_(kind), size_(size) {
+    glGenBuffers(1, &id_);
+    const GLenum target = kind == BufferKind::Index ? GL_ARRAY_BUFFER : glTarget(kind);
+    glBindBuffer(target, id_);
+    glBufferData(target, static_cast<GLsizeiptr>(size), nullptr, GL_STATIC_DRAW);
 }
 
 Buffer::Buffer(Buffer&& other) noexcept {
@@ -108,12 +117,16 @@ VertexArray::~VertexArray() {
     }
 }
 
-void VertexArray::setAttribute(Attribute attribute, const Buffer& buffer, int components) {
+void VertexArray::setAttribute(Attribute attribute, const Buffer& buffer, int components,
+                               int first) {
     const auto location = static_cast<GLuint>(attribute);
     bind();
     buffer.bind();
     glEnableVertexAttribArray(location);
-    glVertexAttribPointer(location, components, GL_FLOAT, GL_FALSE, 0, nullptr);
+    const auto offset = static_cast<std::uintptr_t>(first) *
+                        static_cast<std::uintptr_t>(components) * sizeof(float);
+    glVertexAttribPointer(location, components, GL_FLOAT, GL_FALSE, 0,
+                          reinterpret_cast<const void*>(offset));
 }
 
 void VertexArray::setIndices(const Buffer& buffer) {
@@ -125,14 +138,17 @@ void VertexArray::bind() const {
     glBindVertexArray(id_);
 }
 
-void drawIndexed(Device& device, DrawMode mode, int indexCount, int instances) {
+void drawIndexed(Device& device, DrawMode mode, const IndexRange& indices, int instances) {
     const GLenum glMode = mode == DrawMode::Points  ? GL_POINTS
                           : mode == DrawMode::Lines ? GL_LINES
                                                     : GL_TRIANGLES;
+    const void* first = reinterpret_cast<const void*>(static_cast<std::uintptr_t>(indices.first) *
+                                                      sizeof(std::uint32_t));
     if (instances == 1) {
-        glDrawElements(glMode, indexCount, GL_UNSIGNED_INT, nullptr);
+        glDrawElementsBaseVertex(glMode, indices.count, GL_UNSIGNED_INT, first, indices.baseVertex);
     } else {
-        glDrawElementsInstanced(glMode, indexCount, GL_UNSIGNED_INT, nullptr, instances);
+        glDrawElementsInstancedBaseVertex(glMode, indices.count, GL_UNSIGNED_INT, first, instances,
+                                          indices.baseVertex);
     }
     ++device.counters().draws;
 }

@@ -17,6 +17,8 @@ public:
     Buffer() = default;
     /// Makes a buffer of the bytes.
     Buffer(Device& device, BufferKind kind, std::span<const std::byte> bytes);
+    /// Makes a buffer of a size whose content is not defined yet.
+    Buffer(Device& device, BufferKind kind, std::size_t size);
     Buffer(Buffer&& other) noexcept;
     Buffer& operator=(Buffer&& other) noexcept;
     ~Buffer();
@@ -62,7 +64,8 @@ public:
     ~VertexArray();
 
     /// Adds a float attribute of 1 to 4 components, tightly packed in its buffer.
-    void setAttribute(Attribute attribute, const Buffer& buffer, int components);
+    /// @param first vertex, of those in the buffer
+    void setAttribute(Attribute attribute, const Buffer& buffer, int components, int first = 0);
     void setIndices(const Buffer& buffer);
     void bind() const;
 
@@ -70,9 +73,15 @@ private:
     unsigned id_ = 0;
 };
 
-/// Draws indexed triangles (or lines, points) of 32-bit indices from the bound vertex array.
 enum class DrawMode { Points, Lines, Triangles };
-void drawIndexed(Device& device, DrawMode mode, int indexCount, int instances = 1);
+/// Indices of a buffer, and what is added to each.
+struct IndexRange {
+    int first = 0;
+    int count = 0;
+    int baseVertex = 0;
+};
+/// Draws indexed triangles (or lines, points) of 32-bit indices from the bound vertex array.
+void drawIndexed(Device& device, DrawMode mode, const IndexRange& indices, int instances = 1);
 /// Draws one triangle that covers the viewport; the vertex shader makes it from gl_VertexID.
 void drawFullScreen(Device& device);
 

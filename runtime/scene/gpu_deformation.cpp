@@ -167,15 +167,15 @@ void GpuDeformation::prepare(gl::Device& device, const Scene& scene,
         const DrawItem& item = items[index];
         const std::vector<float>& weights = componentOf(scene, item).weights;
         if (morphs_[index]->uploaded != weights) {
-            uploadMorph(device, primitiveOf(scene, item), weights,
-                        gpu.primitive(item.mesh, item.primitive), *morphs_[index]);
+            uploadMorph(device, primitiveOf(scene, item), weights, gpu.geometry(),
+                        gpu.geometry().primitive(item.mesh, item.primitive), *morphs_[index]);
         }
     }
 }
 
 void GpuDeformation::uploadMorph(gl::Device& device, const io::GltfPrimitive& primitive,
-                                 const std::vector<float>& weights, const GpuPrimitive& shared,
-                                 Morph& target) {
+                                 const std::vector<float>& weights, const GpuGeometry& geometry,
+                                 const GpuPrimitive& shared, Morph& target) {
     const MorphedVertices vertices = morph(primitive, weights);
     const bool first = target.uploaded.empty();
     const auto put = [&](gl::Attribute attribute, gl::Buffer& buffer, const auto& values) {
@@ -192,11 +192,12 @@ void GpuDeformation::uploadMorph(gl::Device& device, const io::GltfPrimitive& pr
     };
     if (first) {
         // What is not morphed is the primitive's own.
-        for (const GpuPrimitive::Stored& stored : shared.attributes) {
-            target.vertices.setAttribute(stored.attribute, shared.buffers[stored.buffer],
-                                         stored.components);
+        const GpuGeometry::Pool& pool = geometry.pool(shared);
+        for (const GpuGeometry::Stored& stored : pool.attributes) {
+            target.vertices.setAttribute(stored.attribute, stored.buffer, stored.components,
+                                         shared.indices.baseVertex);
         }
-        target.vertices.setIndices(shared.buffers.back());
+        target.vertices.setIndices(pool.indices);
     }
     put(gl::Attribute::Position, target.positions, vertices.positions);
     put(gl::Attribute::Normal, target.normals, vertices.normals);

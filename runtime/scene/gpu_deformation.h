@@ -44,7 +44,7 @@ public:
     void bind() const;
     /// Where a skin's joints begin in the buffer texture; 0 for none.
     [[nodiscard]] float firstTexel(int skin) const;
-    /// The vertices of a draw item that is morphed; null for others.
+    /// The vertices of a draw item that is morphed, from vertex 0 on; null for others.
     [[nodiscard]] const gl::VertexArray* vertices(std::size_t item) const;
 
 private:
@@ -58,8 +58,8 @@ private:
     };
 
     static void uploadMorph(gl::Device& device, const io::GltfPrimitive& primitive,
-                            const std::vector<float>& weights, const GpuPrimitive& shared,
-                            Morph& target);
+                            const std::vector<float>& weights, const GpuGeometry& geometry,
+                            const GpuPrimitive& shared, Morph& target);
 
     std::vector<std::size_t> firstTexels_; ///< by skin
     std::vector<glm::vec4> joints_;        ///< three rows a joint, in the pose described

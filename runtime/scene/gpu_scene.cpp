@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scene/gpu_scene.h"
 
-#include <span>
-
 namespace lodestar::scene {
 namespace {
 
@@ -51,46 +49,6 @@ gl::SamplerState samplerOf(const io::GltfTexture& texture) {
             texture.mip == io::MipFilter::Linear};
 }
 
-template <class T>
-void addAttribute(gl::Device& device, GpuPrimitive& target, gl::Attribute attribute,
-                  const std::vector<T>& values) {
-    if (!values.empty()) {
-        gl::Buffer& buffer = target.buffers.emplace_back(device, gl::BufferKind::Vertex,
-                                                         std::as_bytes(std::span(values)));
-        const auto components = static_cast<int>(sizeof(T) / sizeof(float));
-        target.vertices.setAttribute(attribute, buffer, components);
-        target.attributes.push_back({attribute, target.buffers.size() - 1, components});
-    }
-}
-
-GpuPrimitive upload(gl::Device& device, const io::GltfPrimitive& primitive) {
-    GpuPrimitive result;
-    result.vertices = gl::VertexArray(device);
-    addAttribute(device, result, gl::Attribute::Position, primitive.positions);
-    addAttribute(device, result, gl::Attribute::Normal, primitive.normals);
-    addAttribute(device, result, gl::Attribute::Tangent, primitive.tangents);
-    addAttribute(device, result, gl::Attribute::Uv0, primitive.uvs[0]);
-    addAttribute(device, result, gl::Attribute::Uv1, primitive.uvs[1]);
-    addAttribute(device, result, gl::Attribute::Color, primitive.colors);
-    constexpr gl::Attribute kJoints[] = {gl::Attribute::Joints0, gl::Attribute::Joints1};
-    constexpr gl::Attribute kWeights[] = {gl::Attribute::Weights0, gl::Attribute::Weights1};
-    for (std::size_t set = 0; set < io::kInfluenceSets; ++set) {
-        // As floats: exact for 16 bits.
-        addAttribute(
-            device, result, kJoints[set],
-            std::vector<glm::vec4>(primitive.joints[set].begin(), primitive.joints[set].end()));
-        addAttribute(device, result, kWeights[set], primitive.weights[set]);
-    }
-    const gl::Buffer& indices = result.buffers.emplace_back(
-        device, gl::BufferKind::Index, std::as_bytes(std::span(primitive.indices)));
-    result.vertices.setIndices(indices);
-    result.indexCount = static_cast<int>(primitive.indices.size());
-    result.mode = primitive.topology == io::Topology::Points  ? gl::DrawMode::Points
-                  : primitive.topology == io::Topology::Lines ? gl::DrawMode::Lines
-                                                              : gl::DrawMode::Triangles;
-    return result;
-}
-
 /// F0 of a dielectric: ((n - 1) / (n + 1))^2 times the specular colour. An index of 0 gives 1.
 glm::vec3 dielectricF0(const io::GltfMaterial& material) {
     const float ratio = (material.ior - 1.0f) / (material.ior + 1.0f);
@@ -101,12 +59,7 @@ glm::vec3 dielectricF0(const io::GltfMaterial& material) {
 
 core::Result<GpuScene> GpuScene::make(gl::Device& device, const Scene& scene) {
     GpuScene result;
-    for (const io::GltfMesh& mesh : scene.meshes) {
-        std::vector<GpuPrimitive>& parts = result.meshes_.emplace_back();
-        for (const io::GltfPrimitive& primitive : mesh.primitives) {
-            parts.push_back(upload(device, primitive));
-        }
-    }
+    result.geometry_ = GpuGeometry(device, scene);
     for (const io::GltfMaterial& material : scene.materials) {
         for (const TextureSlot& slot : slotsOf(material)) {
             if (auto added = result.addTexture(device, scene, *slot.reference, slot.encoding);

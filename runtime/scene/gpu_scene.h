@@ -8,27 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "gl/buffer.h"
 #include "gl/texture.h"
 #include "host/blocks.glsl"
+#include "scene/gpu_geometry.h"
 #include "scene/renderer.h"
 #include "scene/scene.h"
 
 namespace lodestar::scene {
-
-struct GpuPrimitive {
-    /// An attribute that a buffer of the list holds.
-    struct Stored {
-        gl::Attribute attribute;
-        std::size_t buffer;
-        int components;
-    };
-    gl::VertexArray vertices;
-    std::vector<Stored> attributes;
-    std::vector<gl::Buffer> buffers; ///< the indices last
-    gl::DrawMode mode = gl::DrawMode::Triangles;
-    int indexCount = 0;
-};
 
 /// Texture units of the renderer, shared with its programs' samplers.
 enum TextureUnit : int {
@@ -66,9 +52,7 @@ class GpuScene {
 public:
     [[nodiscard]] static core::Result<GpuScene> make(gl::Device& device, const Scene& scene);
 
-    [[nodiscard]] const GpuPrimitive& primitive(int mesh, int part) const {
-        return meshes_[static_cast<std::size_t>(mesh)][static_cast<std::size_t>(part)];
-    }
+    [[nodiscard]] const GpuGeometry& geometry() const { return geometry_; }
     /// Binds the textures of a material to the material units; unused units are left as they are.
     void bindTextures(const io::GltfMaterial& material) const;
 
@@ -77,7 +61,7 @@ private:
                                                 const io::GltfTextureRef& reference,
                                                 gl::TexelEncoding encoding);
 
-    std::vector<std::vector<GpuPrimitive>> meshes_;
+    GpuGeometry geometry_;
     std::map<std::pair<int, gl::TexelEncoding>, gl::Texture> textures_;
 };
 

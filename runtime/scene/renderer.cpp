@@ -135,14 +135,17 @@ void Renderer::State::use(const MeshProgram& program, const plan::Batch& batch,
 /// @param index of the batch's first draw
 void Renderer::State::drawInstances(std::size_t index, const plan::Batch& batch, PassState& state) {
     const DrawItem& item = items[index];
-    const GpuPrimitive& part = gpu.primitive(item.mesh, item.primitive);
+    const GpuPrimitive& part = gpu.geometry().primitive(item.mesh, item.primitive);
     const gl::VertexArray* morphed = deformation.vertices(index);
-    const gl::VertexArray* vertices = morphed != nullptr ? morphed : &part.vertices;
+    const gl::VertexArray* vertices =
+        morphed != nullptr ? morphed : &gpu.geometry().pool(part).vertices;
     if (state.vertices != vertices) {
         vertices->bind();
         state.vertices = vertices;
     }
-    gl::drawIndexed(device, part.mode, part.indexCount, static_cast<int>(batch.count));
+    gl::IndexRange indices = part.indices;
+    indices.baseVertex = morphed != nullptr ? 0 : indices.baseVertex;
+    gl::drawIndexed(device, part.mode, indices, static_cast<int>(batch.count));
 }
 
 void Renderer::State::drawBatch(const plan::Batch& batch, const plan::EffectPlan& plan,
@@ -166,8 +169,7 @@ void Renderer::State::drawBatch(const plan::Batch& batch, const plan::EffectPlan
         materials.bind(primitive.material);
         gpu.bindTextures(material);
     }
-    const bool twoSided = material.doubleSided ||
-                          gpu.primitive(item.mesh, item.primitive).mode != gl::DrawMode::Triangles;
+    const bool twoSided = material.doubleSided || primitive.topology != io::Topology::Triangles;
     if (state.twoSided != twoSided) {
         state.twoSided = twoSided;
         twoSided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);

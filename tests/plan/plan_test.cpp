@@ -292,6 +292,31 @@ TEST(Plan, LightsStandInForTheEnvironment) {
     EXPECT_FALSE(has(result.drawFeatures[0], Feature::Environment));
 }
 
+TEST(Plan, DrawsOfOneMeshAndMaterialAreOneCall) {
+    std::vector<DrawView> draws(6, ball());
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+        draws[i].geometry = i % 2;
+        draws[i].material = 1;
+    }
+    draws[2].material = 2;
+    draws[4].mirrored = true;
+    draws[5].visible = false;
+    const EffectPlan result = plan(scene(draws));
+    // Materials before geometry, so that they are bound seldom; mirrored ones apart.
+    EXPECT_EQ(result.drawOrder, (std::vector<std::size_t>{0, 4, 1, 3, 2}));
+    std::vector<std::size_t> counts;
+    std::uint64_t calls = 0;
+    for (const Batch& batch : result.batches) {
+        counts.push_back(batch.count);
+    }
+    for (const Effect& effect : result.effects) {
+        calls += effect.effect == "draw" ? effect.cost.draws : 0;
+    }
+    EXPECT_EQ(counts, (std::vector<std::size_t>{1, 1, 2, 1}));
+    EXPECT_TRUE(result.batches[1].mirrored);
+    EXPECT_EQ(calls, result.batches.size());
+}
+
 TEST(Plan, MirrorsAloneReadTheGradients) {
     DrawView rough = ball();
     rough.sharpest = 2048.0;
