@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The command line as a contract: exit statuses, one-line errors, JSON that parses.
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -279,6 +280,64 @@ TEST(CommandLine, ExrHoldsRadianceWhateverTheExposure) {
     EXPECT_FLOAT_EQ(image.at(4, 4)[0], 3.0f);
     EXPECT_FLOAT_EQ(image.at(4, 4)[2], 1.0f);
     EXPECT_FLOAT_EQ(image.at(4, 4)[3], 1.0f);
+}
+
+using nlohmann::json;
+
+/// A scene of nothing under an EXT_lights_image_based of six files, each face of one colour.
+std::string lightFromFiles(const TemporaryFolder& folder, const json& rotation) {
+    const char* faces[] = {"px", "nx", "py", "ny", "pz", "nz"};
+    json document = json::parse(
+        R"({"asset": {"version": "2.0"}, "scene": 0, "extensionsUsed": ["EXT_lights_image_based"],
+            "scenes": [{"extensions": {"EXT_lights_image_based": {"light": 0}}}]})");
+    json light = {{"intensity", 2.0}, {"rotation", rotation}, {"specularImageSize", 4}};
+    light["irradianceCoefficients"] = std::vector<std::vector<double>>(9, {0.0, 0.0, 0.0});
+    for (int face = 0; face < 6; ++face) {
+        core::Image image(4, 4, 4);
+        for (int i = 0; i < 16; ++i) {
+            float* texel = &image.pixels()[static_cast<std::size_t>(4 * i)];
+            texel[0] = (face & 1) != 0 ? 0.8f : 0.4f; // as encoded
+            texel[1] = (face & 2) != 0 ? 0.8f : 0.4f;
+            texel[2] = (face & 4) != 0 ? 0.8f : 0.4f;
+            texel[3] = 1.0f;
+        }
+        const std::string name = std::string("sky_") + faces[face] + ".png";
+        EXPECT_TRUE(io::writeImage(folder.file(name), image).ok());
+        document["images"].push_back({{"uri", name}});
+        light["specularImages"][0].push_back(face);
+    }
+    document["extensions"]["EXT_lights_image_based"]["lights"] = {light};
+    std::ofstream(folder.file("under.gltf")) << document.dump();
+    return folder.file("under.gltf");
+}
+
+// Seen from within, each face is where GL has it; turned by 90 degrees about +Y, what was along +X
+// is along -Z. Encoded values are decoded from sRGB and doubled by the intensity.
+TEST(CommandLine, ALightOfFilesSurroundsItsScene) {
+    const char* directions[] = {"1,0,0", "-1,0,0", "0,1,0.001", "0,-1,0.001", "0,0,1", "0,0,-1"};
+    const int turned[] = {4, 5, 2, 3, 1, 0}; // the face seen along each
+    const double root = std::sqrt(0.5);
+    for (const bool turn : {false, true}) {
+        const TemporaryFolder folder;
+        const std::string scene =
+            lightFromFiles(folder, turn ? json{0.0, root, 0.0, root} : json{0.0, 0.0, 0.0, 1.0});
+        for (int along = 0; along < 6; ++along) {
+            const std::string out = folder.file("seen.exr");
+            const RunResult run =
+                runLodestar({"render", scene, "-o", out, "--size", "4x4", "--environment-width",
+                             "16", "--eye", "0,0,0", "--target", directions[along], "--fov", "10"});
+            ASSERT_EQ(run.status, 0) << run.err;
+            const int face = turn ? turned[along] : along;
+            const core::Image seen = readPicture(out);
+            for (int c = 0; c < 3; ++c) {
+                const double encoded = std::round((face >> c & 1) != 0 ? 204.0 : 102.0) / 255.0;
+                const double linear = 2.0 * std::pow((encoded + 0.055) / 1.055, 2.4);
+                EXPECT_NEAR(static_cast<double>(seen.at(2, 2)[c]), linear, 2e-3 * linear)
+                    << (turn ? "turned, along " : "along ") << directions[along] << " channel "
+                    << c;
+            }
+        }
+    }
 }
 
 } // namespace

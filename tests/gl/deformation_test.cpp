@@ -300,6 +300,32 @@ TEST_F(Deformation, SixJointsMatchTheirVertices) {
     compareAtThreeTimes(scene::buildScene(sixJoints()), "skinning");
 }
 
+// Joints that turn a mesh inside out turn its winding too: what is seen is its outside, as of the
+// same vertices with their triangles wound the other way.
+TEST_F(Deformation, MirroredJointsShowTheOutside) {
+    for (const glm::vec3& scale : {glm::vec3(-1, 1, 1), glm::vec3(-1, -1, -1)}) {
+        io::GltfFile file = sixJoints();
+        file.nodes[1].scale = scale;
+        scene::Scene scene = scene::buildScene(std::move(file));
+        scene::reachOver(scene, 0);
+        const scene::View view = *scene::chooseView(scene, {}, 1.0f);
+        scene::pose(scene, 0, 0.6);
+        scene::Scene fixed = baked(scene);
+        auto inside = renderer(fixed)->render(view, settings());
+        std::vector<std::uint32_t>& indices = fixed.meshes.back().primitives[0].indices;
+        for (std::size_t i = 0; i < indices.size(); i += 3) {
+            std::swap(indices[i + 1], indices[i + 2]);
+        }
+        auto drawn = renderer(scene)->render(view, settings());
+        auto reference = renderer(fixed)->render(view, settings());
+        ASSERT_TRUE(drawn.ok() && reference.ok() && inside.ok());
+        const core::Image picture = display(drawn->radiance);
+        EXPECT_LE(testing::compare(picture, display(reference->radiance), 1.0 / 255.0).largest,
+                  1.0 / 255.0);
+        EXPECT_GT(testing::compare(picture, display(inside->radiance), 0.05).failingFraction, 0.02);
+    }
+}
+
 TEST_F(Deformation, TargetsMatchTheirVertices) {
     compareAtThreeTimes(scene::buildScene(twoTargets(false)), "morphs");
 }

@@ -270,5 +270,62 @@ TEST_F(Rendering, TextureTransformsMoveEachTexture) {
     }
 }
 
+/// A square whose normal map, turned by its transform or in its coordinates, tilts each quarter
+/// another way.
+scene::Scene bumpedSquare(bool byTransform, bool withTangents, float angle) {
+    io::GltfPrimitive square = testing::square();
+    const glm::mat3x2 turn(std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle),
+                           0.1f, 0.2f);
+    if (!byTransform) {
+        for (glm::vec2& uv : square.uvs[0]) {
+            uv = turn * glm::vec3(uv, 1.0f);
+        }
+    }
+    if (withTangents) {
+        square.tangents.assign(4, {1.0f, 0.0f, 0.0f, 1.0f});
+    }
+    io::GltfMaterial material = testing::blinnPhong(glm::vec3(0.5f), glm::vec3(0.5f), 30.0f);
+    material.normalTexture.texture = 0;
+    if (byTransform) {
+        material.normalTexture.uvTransform = turn;
+    }
+    io::GltfFile file = testing::fileOf(square, material);
+    core::Texels map(2, 2);
+    map.bytes() = {200, 128, 220, 255, 128, 200, 220, 255, 60, 128, 220, 255, 128, 60, 220, 255};
+    file.images.push_back(map);
+    io::GltfTexture texture;
+    texture.image = 0;
+    texture.magnification = texture.minification = io::Filter::Nearest;
+    texture.mip = io::MipFilter::None;
+    file.textures.push_back(texture);
+    return scene::buildScene(std::move(file));
+}
+
+// KHR_texture_transform moves where the map is read. A mesh's own tangents stay what they are;
+// where it has none the frame is that of the coordinates as transformed.
+TEST_F(Rendering, ATurnedNormalMapIsReadAsByTurnedCoordinates) {
+    for (const bool tangents : {false, true}) {
+        const auto drawn = [&](bool byTransform, float angle) {
+            const scene::Scene scene = bumpedSquare(byTransform, tangents, angle);
+            auto frame = renderer(scene)->render(testing::frontView(scene), small());
+            EXPECT_TRUE(frame.ok());
+            return frame->radiance.pixels();
+        };
+        const std::vector<float> transformed = drawn(true, 0.6f);
+        const std::vector<float> turned = drawn(false, 0.6f);
+        int differing = 0; // texel edges may fall on the other side of a pixel's centre
+        for (std::size_t i = 0; i < transformed.size(); ++i) {
+            differing += std::abs(transformed[i] - turned[i]) > 1e-4f * (1.0f + turned[i]) ? 1 : 0;
+        }
+        EXPECT_LT(differing, static_cast<int>(transformed.size()) / 500) << tangents;
+        const std::vector<float> straight = drawn(true, 0.0f);
+        int moved = 0;
+        for (std::size_t i = 0; i < transformed.size(); ++i) {
+            moved += std::abs(transformed[i] - straight[i]) > 0.02f ? 1 : 0;
+        }
+        EXPECT_GT(moved, static_cast<int>(transformed.size()) / 50) << tangents;
+    }
+}
+
 } // namespace
 } // namespace lodestar
