@@ -37,7 +37,8 @@ vec3 facetNormal(vec3 view) {
     return dot(n, view) < 0.0 ? -n : n;
 }
 
-/// The tangent frame of the mesh, or one from derivatives of position and uv where it has none.
+/// The tangent frame of the mesh, turned with its texture coordinates, or one from derivatives of
+/// position and uv where it has none.
 /// Seen from behind, a bump turns over as a whole: tangent and bitangent flip with the normal.
 /// @param n the normal that faces the viewer
 mat3 tangentFrame(vec3 n, vec2 uv) {
@@ -45,6 +46,15 @@ mat3 tangentFrame(vec3 n, vec2 uv) {
 #if LODESTAR_TANGENTS
     vec3 t = lodestar_safeNormalize(vTangent.xyz - n * dot(n, vTangent.xyz), vec3(0.0));
     vec3 b = cross(n, t) * vTangent.w;
+#if LODESTAR_TEXTURE_TRANSFORM
+    // The mesh's tangents belong to its own coordinates. The frame of the transformed ones: t along
+    // the line on which v' stays and u' grows; v and v' run down the image, b up.
+    vec4 u = uvRows[2 * LODESTAR_NORMAL_UNIT];
+    vec4 v = uvRows[2 * LODESTAR_NORMAL_UNIT + 1];
+    float side = u.x * v.y - u.y * v.x < 0.0 ? -1.0 : 1.0;
+    t = lodestar_safeNormalize(side * (v.y * t + v.x * facing * b), vec3(0.0));
+    b = cross(n, t) * (vTangent.w * side);
+#endif
     t *= facing;
 #else
     // The gradients of u and v on the surface; glTF's v runs down the image, a normal map's y up.

@@ -81,7 +81,9 @@ void main() {
     vNormal = vec3(0.0);
 #endif
 #if LODESTAR_TANGENTS
-    vTangent = vec4(mat3(worldFromMesh) * aTangent.xyz, aTangent.w);
+    // A mirror image of a bitangent is not normal x tangent, but its opposite.
+    float mirrored = determinant(mat3(worldFromMesh)) < 0.0 ? -1.0 : 1.0;
+    vTangent = vec4(mat3(worldFromMesh) * aTangent.xyz, mirrored * aTangent.w);
 #else
     vTangent = vec4(0.0);
 #endif

@@ -271,7 +271,7 @@ TEST_F(Rendering, TextureTransformsMoveEachTexture) {
 }
 
 /// A square whose normal map, turned by its transform or in its coordinates, tilts each quarter
-/// another way.
+/// another way. Its tangents run with its coordinates.
 scene::Scene bumpedSquare(bool byTransform, bool withTangents, float angle) {
     io::GltfPrimitive square = testing::square();
     const glm::mat3x2 turn(std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle),
@@ -282,7 +282,8 @@ scene::Scene bumpedSquare(bool byTransform, bool withTangents, float angle) {
         }
     }
     if (withTangents) {
-        square.tangents.assign(4, {1.0f, 0.0f, 0.0f, 1.0f});
+        const float turned = byTransform ? 0.0f : angle; // with v down the image
+        square.tangents.assign(4, {std::cos(turned), -std::sin(turned), 0.0f, 1.0f});
     }
     io::GltfMaterial material = testing::blinnPhong(glm::vec3(0.5f), glm::vec3(0.5f), 30.0f);
     material.normalTexture.texture = 0;
@@ -301,8 +302,8 @@ scene::Scene bumpedSquare(bool byTransform, bool withTangents, float angle) {
     return scene::buildScene(std::move(file));
 }
 
-// KHR_texture_transform moves where the map is read. A mesh's own tangents stay what they are;
-// where it has none the frame is that of the coordinates as transformed.
+// KHR_texture_transform moves where the map is read, and which way its bumps lean: as if the mesh
+// had had the turned coordinates, and the tangents of those.
 TEST_F(Rendering, ATurnedNormalMapIsReadAsByTurnedCoordinates) {
     for (const bool tangents : {false, true}) {
         const auto drawn = [&](bool byTransform, float angle) {
