@@ -84,6 +84,9 @@ void main() {
     // A mirror image of a bitangent is not normal x tangent, but its opposite.
     float mirrored = determinant(mat3(worldFromMesh)) < 0.0 ? -1.0 : 1.0;
     vTangent = vec4(mat3(worldFromMesh) * aTangent.xyz, mirrored * aTangent.w);
+#if LODESTAR_SKINNING
+    vTangent.xyz = lodestar_safeNormalize(vTangent.xyz, vec3(0.0)); // as the normal
+#endif
 #else
     vTangent = vec4(0.0);
 #endif

@@ -206,6 +206,44 @@ io::GltfFile twoTargets(bool flat) {
     return file;
 }
 
+/// The file's sphere with tangents and a bumpy normal map.
+io::GltfFile bumped(io::GltfFile file) {
+    io::GltfPrimitive& primitive = file.meshes[0].primitives[0];
+    for (const glm::vec2& uv : primitive.uvs[0]) {
+        const float longitude = 6.2831853f * uv.x;
+        primitive.tangents.emplace_back(std::cos(longitude), 0.0f, -std::sin(longitude), 1.0f);
+    }
+    for (io::GltfMorphTarget& target : primitive.targets) {
+        for (const glm::vec3& p : primitive.positions) {
+            target.tangents.emplace_back(0.3f * p.y, 0.5f * p.z, 0.2f);
+        }
+    }
+    core::Texels map(8, 8);
+    for (std::size_t i = 0; i < 64; ++i) {
+        const std::size_t x = i % 8;
+        const std::size_t y = i / 8;
+        const int red = x % 4 < 2 ? 190 : 66;
+        const int green = y % 4 < 2 ? 190 : 66;
+        const int texel[] = {red, green, 210, 255};
+        std::copy_n(texel, 4, &map.bytes()[4 * i]);
+    }
+    file.images.push_back(map);
+    file.textures.push_back({0, {}, {}, {}, {}, io::MipFilter::None});
+    file.materials[0].normalTexture.texture = 0;
+    return file;
+}
+
+TEST_F(Deformation, TangentsFollowSixJoints) {
+    compareAtThreeTimes(scene::buildScene(bumped(sixJoints())), "skinning");
+    io::GltfFile mirrored = bumped(sixJoints());
+    mirrored.nodes[1].scale = {-1, 1, 1};
+    compareAtThreeTimes(scene::buildScene(std::move(mirrored)), "skinning");
+}
+
+TEST_F(Deformation, TangentsFollowTargets) {
+    compareAtThreeTimes(scene::buildScene(bumped(twoTargets(false))), "morphs");
+}
+
 TEST_F(Deformation, SixJointsMatchTheirVertices) {
     compareAtThreeTimes(scene::buildScene(sixJoints()), "skinning");
 }

@@ -19,9 +19,9 @@
 namespace lodestar::testing {
 namespace {
 
-/// The mean difference that is allowed: as if all pixels that may fail were wrong by all of the
-/// display's range.
-constexpr double kMean = 1e-3;
+/// The mean difference that is allowed: half a step of 8 bits, as if half of all values were
+/// rounded the other way.
+constexpr double kMean = 0.5 / 255.0;
 
 std::vector<GltfGolden> allGoldens() {
     std::vector<GltfGolden> all;

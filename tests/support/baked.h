@@ -39,6 +39,15 @@ inline void bakeTargets(io::GltfPrimitive& primitive, const std::vector<float>& 
         primitive.positions[i] = position;
         primitive.normals[i] = glm::normalize(normal);
     }
+    for (std::size_t i = 0; i < primitive.tangents.size(); ++i) {
+        glm::dvec3 tangent(primitive.tangents[i]);
+        for (std::size_t t = 0; t < primitive.targets.size(); ++t) {
+            const std::vector<glm::vec3>& deltas = primitive.targets[t].tangents;
+            tangent +=
+                deltas.empty() ? glm::dvec3(0.0) : double{weights[t]} * glm::dvec3(deltas[i]);
+        }
+        primitive.tangents[i] = {glm::vec3(glm::normalize(tangent)), primitive.tangents[i].w};
+    }
     for (std::size_t i = 0; primitive.flatNormals && i < primitive.indices.size(); i += 3) {
         const std::uint32_t* c = &primitive.indices[i];
         const glm::dvec3 a(primitive.positions[c[0]]);
@@ -58,6 +67,12 @@ inline void bakeSkin(const scene::Scene& scene, const io::GltfSkin& skin,
         primitive.positions[i] = glm::dvec3(m * glm::dvec4(primitive.positions[i], 1.0));
         primitive.normals[i] =
             glm::normalize(glm::inverseTranspose(glm::dmat3(m)) * glm::dvec3(primitive.normals[i]));
+        if (!primitive.tangents.empty()) { // a mirror image's bitangent is minus normal x tangent
+            glm::vec4& tangent = primitive.tangents[i];
+            const float side = glm::determinant(glm::dmat3(m)) < 0.0 ? -1.0f : 1.0f;
+            tangent = {glm::vec3(glm::normalize(glm::dmat3(m) * glm::dvec3(tangent))),
+                       side * tangent.w};
+        }
     }
     // A skin that mirrors turns its faces inside out; the static mesh winds them back.
     const bool mirrored = glm::determinant(glm::dmat3(blended(scene, skin, primitive, 0))) < 0.0;
