@@ -36,46 +36,32 @@ glm::dvec3 gradientAt(const DayLight& light, const DayMoment& moment, double the
 
 } // namespace
 
-DayLookup::DayLookup(std::vector<DayLight> lights, const RsrmLayout& layout) : layout_(layout) {
+DayLookup::DayLookup(std::vector<DayLight> lights, const RsrmLayout& layout) {
+    const auto kernels = std::make_shared<RsrmKernels>();
     for (DayLight& day : lights) {
-        std::vector<std::optional<Key>> keys(day.keys.size());
-        lights_.push_back({std::move(day), std::move(keys), {}});
+        lights_.push_back({LightMap(std::move(day), layout, kernels)});
     }
 }
 
-const DayLookup::Key& DayLookup::key(Light& light, std::size_t index) {
-    std::optional<Key>& key = light.keys[index];
-    if (!key) {
-        const LightKind kind = light.day.kind;
-        key = Key{kernels_.get(layout_, kind)
-                      ->bake(keyRadiance(light.day, index, zonesFor(layout_, kind))),
-                  keyGradient(light.day, index)};
+void DayLookup::prepare(Light& light, const DayMoment& moment, double hour) {
+    if (light.hour != hour) {
+        light.blend = light.map.blend(LightMap::contentOf(moment));
+        light.hour = hour;
     }
-    return *key;
-}
-
-void DayLookup::blend(Light& light, const DayMoment& moment, double hour) {
-    if (light.hour == hour) {
-        return;
-    }
-    const Key& from = key(light, moment.keys.from);
-    const Key& to = key(light, moment.keys.to);
-    light.texels = encode(layout_, blended(from.bake, to.bake, moment.keys.t, moment.visibility));
-    light.gradient = blended(from.gradient, to.gradient, moment.keys.t, moment.visibility);
-    light.hour = hour;
 }
 
 DayLookup::Answer DayLookup::lookup(double hour, const glm::dvec3& direction, double exponent) {
     Answer answer;
-    const bool past =
-        layout_.columnMap == RsrmColumns::Refined && exponent > layout_.greatestExponent;
     for (Light& light : lights_) {
-        const DayMoment moment = momentAt(light.day, hour);
+        const DayMoment moment = momentAt(light.map.day(), hour);
         if (moment.visibility > 0.0) {
-            blend(light, moment, hour);
+            prepare(light, moment, hour);
+            const RsrmLayout& layout = light.map.layout();
             const double theta = angleBetween(direction, moment.axis);
             answer.radiance +=
-                glm::dvec3(rsrmRadiance(light.texels, light.gradient, theta, exponent));
+                glm::dvec3(rsrmRadiance(light.blend.texels, light.blend.gradient, theta, exponent));
+            const bool past =
+                layout.columnMap == RsrmColumns::Refined && exponent > layout.greatestExponent;
             answer.fetches += past ? 2 : 1;
         }
     }
@@ -85,11 +71,11 @@ DayLookup::Answer DayLookup::lookup(double hour, const glm::dvec3& direction, do
 DayLookup::Answer DayLookup::lambert(double hour, const glm::dvec3& normal) {
     Answer answer;
     for (Light& light : lights_) {
-        const DayMoment moment = momentAt(light.day, hour);
+        const DayMoment moment = momentAt(light.map.day(), hour);
         if (moment.visibility > 0.0) {
-            blend(light, moment, hour);
+            prepare(light, moment, hour);
             answer.radiance +=
-                glm::dvec3(rsrmLambert(light.texels, angleBetween(normal, moment.axis)));
+                glm::dvec3(rsrmLambert(light.blend.texels, angleBetween(normal, moment.axis)));
             ++answer.fetches;
         }
     }

@@ -8,8 +8,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "lighting/day.h"
-#include "lighting/rsrm.h"
+#include "lighting/light_map.h"
 
 namespace lodestar::lighting {
 
@@ -30,22 +29,13 @@ public:
     [[nodiscard]] Answer lambert(double hour, const glm::dvec3& normal);
 
 private:
-    struct Key {
-        RsrmBake bake;
-        std::vector<glm::vec3> gradient;
-    };
     struct Light {
-        DayLight day;
-        std::vector<std::optional<Key>> keys;
-        std::optional<double> hour; ///< that the texels and the gradient are of
-        RsrmTexels texels{};
-        std::vector<glm::vec3> gradient{};
+        LightMap map;
+        std::optional<double> hour{}; ///< that the blend is of
+        LightMap::Blend blend{};
     };
-    [[nodiscard]] const Key& key(Light& light, std::size_t index);
-    void blend(Light& light, const DayMoment& moment, double hour);
+    static void prepare(Light& light, const DayMoment& moment, double hour);
 
-    RsrmLayout layout_;
-    RsrmKernels kernels_;
     std::vector<Light> lights_;
 };
 

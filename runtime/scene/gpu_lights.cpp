@@ -72,18 +72,16 @@ GpuLights::GpuLights(std::vector<lighting::DayLight> lights, const lighting::Rsr
                           " that a frame holds, left out");
             continue;
         }
-        Light light;
-        light.keys.resize(day.keys.size());
+        int shadow = -1;
         if (day.kind == lighting::LightKind::Sun && day.visibility) {
             if (shadows < LODESTAR_MAX_SHADOWS) {
-                light.shadow = shadows++;
+                shadow = shadows++;
             } else {
                 warnings_.add("sun beyond the " + std::to_string(LODESTAR_MAX_SHADOWS) +
                               " that cast shadows, casts none");
             }
         }
-        light.day = std::move(day);
-        lights_.push_back(std::move(light));
+        lights_.push_back({lighting::LightMap(std::move(day), layout_, kernels_), shadow});
     }
 }
 
@@ -93,17 +91,12 @@ bool GpuLights::published() const {
 
 std::string GpuLights::replacement() const {
     for (std::size_t i = 0; i < lights_.size(); ++i) {
-        const lighting::DayLight& day = lights_[i].day;
+        const lighting::DayLight& day = lights_[i].map.day();
         if (day.kind == lighting::LightKind::Sky && !day.add) {
             return day.name.empty() ? "light " + std::to_string(i) : day.name;
         }
     }
     return {};
-}
-
-GpuLights::Content GpuLights::contentOf(const Light& light) {
-    const lighting::KeyBlend& keys = light.moment.keys;
-    return {keys.from, keys.to, keys.t, light.moment.visibility};
 }
 
 std::vector<plan::RsrmLightView> GpuLights::describe(double hour) {
@@ -113,11 +106,12 @@ std::vector<plan::RsrmLightView> GpuLights::describe(double hour) {
         static_cast<std::size_t>(layout_.columns) * static_cast<std::size_t>(layout_.rows);
     for (std::size_t i = 0; i < lights_.size(); ++i) {
         Light& light = lights_[i];
-        light.moment = lighting::momentAt(light.day, hour);
+        light.moment = lighting::momentAt(light.map.day(), hour);
         plan::RsrmLightView view;
-        view.subject = light.day.name.empty() ? "light " + std::to_string(i) : light.day.name;
+        view.subject =
+            light.map.day().name.empty() ? "light " + std::to_string(i) : light.map.day().name;
         view.shines = shines(light.moment);
-        view.changed = light.uploaded != contentOf(light);
+        view.changed = light.uploaded != lighting::LightMap::contentOf(light.moment);
         view.texels = texels + line + lighting::kGradientColumns;
         view.uploadBytes = lighting::texelBytes(layout_) + sizeof(glm::vec4) * line +
                            std::size_t{8} * lighting::kGradientColumns;
@@ -125,16 +119,6 @@ std::vector<plan::RsrmLightView> GpuLights::describe(double hour) {
         views.push_back(std::move(view));
     }
     return views;
-}
-
-const GpuLights::Key& GpuLights::key(Light& light, std::size_t index) {
-    std::optional<Key>& key = light.keys[index];
-    if (!key) {
-        const auto kernel = kernels_->get(layout_, light.day.kind);
-        key = Key{kernel->bake(lighting::keyRadiance(light.day, index, kernel->zones())),
-                  lighting::keyGradient(light.day, index)};
-    }
-    return *key;
 }
 
 core::Result<void> GpuLights::allocate(gl::Device& device) {
@@ -163,17 +147,12 @@ core::Result<void> GpuLights::allocate(gl::Device& device) {
 
 void GpuLights::upload(std::size_t index) {
     Light& light = lights_[index];
-    const Content content = contentOf(light);
-    const Key& from = key(light, content.from);
-    const Key& to = key(light, content.to);
-    const lighting::RsrmTexels texels =
-        lighting::encode(layout_, lighting::blended(from.bake, to.bake, content.t, content.factor));
-    light.scale = texels.scale;
-    maps_.updateLayer(static_cast<int>(index), texels.bytes);
-    lamberts_.updateLayer(static_cast<int>(index), floatsOf(texels.lambert));
-    gradients_.updateLayer(
-        static_cast<int>(index),
-        rootsOf(lighting::blended(from.gradient, to.gradient, content.t, content.factor)));
+    const auto content = lighting::LightMap::contentOf(light.moment);
+    const lighting::LightMap::Blend blend = light.map.blend(content);
+    light.scale = blend.texels.scale;
+    maps_.updateLayer(static_cast<int>(index), blend.texels.bytes);
+    lamberts_.updateLayer(static_cast<int>(index), floatsOf(blend.texels.lambert));
+    gradients_.updateLayer(static_cast<int>(index), rootsOf(blend.gradient));
     light.uploaded = content;
 }
 

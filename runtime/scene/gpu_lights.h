@@ -14,8 +14,7 @@
 #include "core/tally.h"
 #include "gl/texture.h"
 #include "host/blocks.glsl"
-#include "lighting/day.h"
-#include "lighting/rsrm.h"
+#include "lighting/light_map.h"
 #include "plan/effect_plan.h"
 
 namespace lodestar::scene {
@@ -53,27 +52,14 @@ public:
     void bind() const;
 
 private:
-    struct Key {
-        lighting::RsrmBake bake;
-        std::vector<glm::vec3> gradient;
-    };
-    /// What a layer holds: two keys, their blend, and a factor.
-    struct Content {
-        std::size_t from = 0, to = 0;
-        double t = 0.0, factor = 1.0;
-        bool operator==(const Content&) const = default;
-    };
     struct Light {
-        lighting::DayLight day;
-        std::vector<std::optional<Key>> keys; ///< baked at their first use
-        lighting::DayMoment moment;
-        std::optional<Content> uploaded;
+        lighting::LightMap map;
+        int shadow = -1; ///< its layer of the shadow maps
+        lighting::DayMoment moment{};
+        std::optional<lighting::LightMap::Content> uploaded{};
         float scale = 1.0f; ///< of the uploaded map
-        int shadow = -1;    ///< its layer of the shadow maps
     };
 
-    [[nodiscard]] static Content contentOf(const Light& light);
-    [[nodiscard]] const Key& key(Light& light, std::size_t index);
     [[nodiscard]] core::Result<void> allocate(gl::Device& device);
     void upload(std::size_t index);
 

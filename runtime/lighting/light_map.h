@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+//
+// One light's filtered map at any hour: its keys are baked when they are first asked for, and a
+// moment blends the bakes.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "lighting/day.h"
+#include "lighting/rsrm.h"
+
+namespace lodestar::lighting {
+
+class LightMap {
+public:
+    /// @param day as `repaired` leaves it  @param kernels shared with other lights; may be null
+    /// where nothing is blended
+    LightMap(DayLight day, const RsrmLayout& layout, std::shared_ptr<RsrmKernels> kernels);
+
+    [[nodiscard]] const DayLight& day() const { return day_; }
+    [[nodiscard]] const RsrmLayout& layout() const { return layout_; }
+
+    /// What a blend depends on: equal contents are equal maps.
+    struct Content {
+        std::size_t from = 0, to = 0;
+        double t = 0.0, factor = 1.0;
+        bool operator==(const Content&) const = default;
+    };
+    [[nodiscard]] static Content contentOf(const DayMoment& moment);
+
+    /// The map's texels and the unfiltered gradient beside it, at kGradientColumns.
+    struct Blend {
+        RsrmTexels texels;
+        std::vector<glm::vec3> gradient;
+    };
+    [[nodiscard]] Blend blend(const Content& content);
+
+private:
+    struct Key {
+        RsrmBake bake;
+        std::vector<glm::vec3> gradient;
+    };
+    [[nodiscard]] const Key& key(std::size_t index);
+
+    DayLight day_;
+    RsrmLayout layout_;
+    std::shared_ptr<RsrmKernels> kernels_;
+    std::vector<std::optional<Key>> keys_;
+};
+
+} // namespace lodestar::lighting
