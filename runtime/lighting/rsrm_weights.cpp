@@ -2,6 +2,7 @@
 #include "lighting/rsrm_weights.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -19,10 +20,20 @@ constexpr double kPi = std::numbers::pi;
 /// The lobe's part below e^-45 of its value at the cap's edge is left out: 3e-20.
 constexpr double kCut = 45.0;
 
-/// Gauss nodes are shared by all calls; built on first use.
-const core::GaussRule& rule() {
-    static const core::GaussRule nodes = core::gaussLegendre(64);
-    return nodes;
+struct FixedRule {
+    std::array<double, 64> nodes, weights;
+};
+
+/// Gauss nodes are shared by all calls; built on first use, in memory that is nobody's.
+const FixedRule& rule() {
+    static const FixedRule shared = [] {
+        const core::GaussRule made = core::gaussLegendre(64);
+        FixedRule fixed{};
+        std::copy(made.nodes.begin(), made.nodes.end(), fixed.nodes.begin());
+        std::copy(made.weights.begin(), made.weights.end(), fixed.weights.begin());
+        return fixed;
+    }();
+    return shared;
 }
 
 /// cos^s a with 0^0 = 1.

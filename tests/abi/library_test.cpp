@@ -1,0 +1,451 @@
+// SPDX-License-Identifier: MIT
+//
+// What a host can do to the library, right and wrong: everything is answered by a status and a
+// message.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <dlfcn.h>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "io/document_file.h"
+#include "lighting/day_lookup.h"
+#include "lodestar/lodestar.h"
+
+namespace lodestar::testing {
+namespace {
+
+/// The library, loaded as a host loads it.
+class Library {
+public:
+    Library() : handle_(dlopen(LODESTAR_LIBRARY, RTLD_NOW | RTLD_LOCAL)) {
+        EXPECT_NE(handle_, nullptr) << dlerror();
+    }
+    Library(const Library&) = delete;
+    Library& operator=(const Library&) = delete;
+    ~Library() { dlclose(handle_); }
+    [[nodiscard]] LodestarStatus get(std::uint32_t abi, LodestarApi& api) const {
+        using Get = LodestarStatus (*)(std::uint32_t, LodestarApi*);
+        return reinterpret_cast<Get>(dlsym(handle_, "lodestar_get_api"))(abi, &api);
+    }
+    [[nodiscard]] LodestarApi api() const {
+        LodestarApi api{};
+        api.struct_size = sizeof api;
+        EXPECT_EQ(get(LODESTAR_ABI_VERSION, api), LODESTAR_OK);
+        return api;
+    }
+
+private:
+    void* handle_;
+};
+
+/// A host that counts its blocks and can run out of them.
+struct CountingHost {
+    std::size_t alive = 0;
+    std::size_t calls = 0;
+    std::size_t failAt = std::numeric_limits<std::size_t>::max(); ///< the call that gives null
+    std::vector<std::string> logged;
+
+    [[nodiscard]] LodestarHost host() {
+        LodestarHost host{};
+        host.struct_size = sizeof host;
+        host.user = this;
+        host.allocate = [](void* user, std::size_t size) -> void* {
+            auto& self = *static_cast<CountingHost*>(user);
+            if (self.calls++ == self.failAt) {
+                return nullptr;
+            }
+            ++self.alive;
+            return std::malloc(size);
+        };
+        host.release = [](void* user, void* memory) {
+            --static_cast<CountingHost*>(user)->alive;
+            std::free(memory);
+        };
+        host.log = [](void* user, std::int32_t number, const char* text) {
+            static_cast<CountingHost*>(user)->logged.push_back(std::to_string(number) + " " + text);
+        };
+        return host;
+    }
+};
+
+/// A sun of one key.
+struct Sun {
+    LodestarStop stops[2]{};
+    LodestarKey key{};
+    LodestarLightDesc desc{};
+
+    Sun() { reset(); }
+    Sun(const Sun&) = delete; // the description points into it
+    Sun& operator=(const Sun&) = delete;
+    void reset() {
+        stops[0] = {0, {1, 0.9, 0.8}, 10};
+        stops[1] = {3, {1, 0.9, 0.8}, 10};
+        key = {};
+        desc = {};
+        key.struct_size = sizeof key;
+        key.stops = stops;
+        key.stop_count = 2;
+        key.hour = 12.0;
+        key.tint[0] = key.tint[1] = key.tint[2] = 1.0;
+        desc.struct_size = sizeof desc;
+        desc.kind = LODESTAR_SUN;
+        desc.axis[1] = 2.0;
+        desc.key_count = 1;
+        desc.key_stride = sizeof key;
+        desc.keys = &key;
+    }
+};
+
+std::string clearSky() {
+    std::ifstream file(std::string(LODESTAR_SAMPLES) + "/skies/clear.lodestar.json");
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class Abi : public ::testing::Test {
+protected:
+    void SetUp() override {
+        const LodestarHost host = counting.host();
+        ASSERT_EQ(api.context_create(&host, &context), LODESTAR_OK);
+    }
+    void TearDown() override {
+        if (context != nullptr) {
+            EXPECT_EQ(api.context_destroy(context), LODESTAR_OK);
+        }
+        EXPECT_EQ(counting.alive, 0u) << "blocks of the host are left";
+    }
+    Library library;
+    LodestarApi api = library.api();
+    CountingHost counting;
+    LodestarContext* context = nullptr;
+};
+
+TEST(AbiEntry, TablesOfOtherVersions) {
+    const Library library;
+    LodestarApi api{};
+    EXPECT_EQ(library.get(LODESTAR_ABI_VERSION, api), LODESTAR_E_ABI) << "no size";
+    api.struct_size = sizeof api;
+    EXPECT_EQ(library.get((LODESTAR_ABI_MAJOR + 1) << 16, api), LODESTAR_E_ABI);
+    EXPECT_EQ(library.get(LODESTAR_ABI_MAJOR << 16 | 77, api), LODESTAR_OK) << "a later minor";
+    // A host of before: the functions that it does not know are not written.
+    struct {
+        LodestarApi api;
+        unsigned char behind[64];
+    } small{};
+    std::memset(&small, 0x5a, sizeof small);
+    small.api.struct_size = offsetof(LodestarApi, last_error);
+    ASSERT_EQ(library.get(LODESTAR_ABI_VERSION, small.api), LODESTAR_OK);
+    EXPECT_EQ(small.api.struct_size, offsetof(LodestarApi, last_error));
+    EXPECT_NE(small.api.context_create, nullptr);
+    const auto* after = reinterpret_cast<const unsigned char*>(&small.api.last_error);
+    EXPECT_EQ(after[0], 0x5a);
+    // A host of later.
+    struct {
+        LodestarApi api;
+        void* more[8];
+    } large{};
+    large.api.struct_size = sizeof large;
+    ASSERT_EQ(library.get(LODESTAR_ABI_VERSION, large.api), LODESTAR_OK);
+    EXPECT_EQ(large.api.struct_size, sizeof(LodestarApi));
+}
+
+TEST_F(Abi, ADocumentLightsAsItsReaderSays) {
+    const std::string text = clearSky();
+    LodestarDocument document = 0;
+    ASSERT_EQ(api.document_load(context, text.data(), text.size(), &document), LODESTAR_OK)
+        << api.last_error(context);
+    ASSERT_EQ(api.document_apply(context, document), LODESTAR_OK);
+    std::size_t count = 0;
+    EXPECT_EQ(api.lights(context, nullptr, &count), LODESTAR_MORE);
+    ASSERT_EQ(count, 2u);
+    std::vector<LodestarLight> lights(count);
+    ASSERT_EQ(api.lights(context, lights.data(), &count), LODESTAR_OK);
+    core::Tally warnings;
+    const auto opened =
+        io::loadDocument(std::string(LODESTAR_SAMPLES) + "/skies/clear.lodestar.json", warnings);
+    ASSERT_TRUE(opened.ok());
+    lighting::DayLookup own(*document::dayLights(*opened, warnings), lighting::kRsrm);
+    const double directions[][3] = {{0, 1, 0}, {1, 0.2, 0}, {-0.3, 0.5, 0.8}, {0, -1, 0.1}};
+    for (const double hour : {0.0, 5.5, 12.0, 18.6}) {
+        ASSERT_EQ(api.set_hour(context, hour), LODESTAR_OK);
+        for (const auto& d : directions) {
+            const glm::dvec3 unit = glm::normalize(glm::dvec3(d[0], d[1], d[2]));
+            double got[3] = {};
+            for (const double exponent : {1.0, 64.0, HUGE_VAL}) {
+                ASSERT_EQ(api.radiance(context, d, exponent, got), LODESTAR_OK);
+                const glm::dvec3 expected = own.lookup(hour, unit, exponent).radiance;
+                // The same text on the same texels, at a direction rounded elsewhere.
+                EXPECT_NEAR(got[1], expected.g, 1e-5 * expected.g) << hour << " s " << exponent;
+            }
+            ASSERT_EQ(api.lambert(context, d, got), LODESTAR_OK);
+            EXPECT_NEAR(got[2], own.lambert(hour, unit).radiance.b, 1e-5);
+        }
+    }
+    // Applied again the handles of before are stale.
+    ASSERT_EQ(api.document_apply(context, document), LODESTAR_OK);
+    LodestarLightState state{};
+    state.struct_size = sizeof state;
+    EXPECT_EQ(api.light_state(context, lights[0], &state), LODESTAR_E_ARG);
+    EXPECT_EQ(api.document_destroy(context, document), LODESTAR_OK);
+    EXPECT_EQ(api.document_apply(context, document), LODESTAR_E_ARG);
+}
+
+TEST_F(Abi, ALightsTexelsAndState) {
+    Sun sun;
+    LodestarLight light = 0;
+    ASSERT_EQ(api.light_create(context, &sun.desc, &light), LODESTAR_OK) << api.last_error(context);
+    LodestarLightState state{};
+    state.struct_size = sizeof state;
+    ASSERT_EQ(api.light_state(context, light, &state), LODESTAR_OK);
+    EXPECT_EQ(state.kind, LODESTAR_SUN);
+    EXPECT_EQ(state.axis[1], 1.0) << "made unit";
+    EXPECT_EQ(state.visibility, 1.0);
+    const std::uint64_t version = state.version;
+    LodestarMapLayout layout{};
+    layout.struct_size = sizeof layout;
+    ASSERT_EQ(api.map_layout(&layout), LODESTAR_OK);
+    const std::pair<int, std::size_t> sizes[] = {
+        {LODESTAR_TEXELS_MAP, 4 * layout.columns * layout.rows},
+        {LODESTAR_TEXELS_LAMBERT, 16 * layout.lambert_columns},
+        {LODESTAR_TEXELS_GRADIENT, 16 * layout.gradient_columns}};
+    for (const auto& [which, expected] : sizes) {
+        std::size_t size = 0;
+        EXPECT_EQ(api.light_texels(context, light, which, nullptr, &size), LODESTAR_MORE);
+        EXPECT_EQ(size, expected);
+        std::vector<unsigned char> texels(size - 1, 0x5a);
+        size = texels.size();
+        EXPECT_EQ(api.light_texels(context, light, which, texels.data(), &size), LODESTAR_MORE);
+        EXPECT_EQ(texels[0], 0x5a) << "nothing is written";
+        texels.resize(expected);
+        size = texels.size();
+        EXPECT_EQ(api.light_texels(context, light, which, texels.data(), &size), LODESTAR_OK);
+        EXPECT_TRUE(
+            std::any_of(texels.begin(), texels.end(), [](unsigned char b) { return b > 0; }));
+    }
+    // Another hour of a sun that does not change: the same texels. A tint changes them.
+    ASSERT_EQ(api.set_hour(context, 3.0), LODESTAR_OK);
+    ASSERT_EQ(api.light_state(context, light, &state), LODESTAR_OK);
+    EXPECT_EQ(state.version, version);
+    double before[3], after[3];
+    const double up[3] = {0, 1, 0};
+    ASSERT_EQ(api.radiance(context, up, 1.0, before), LODESTAR_OK);
+    sun.key.tint[0] = 0.5;
+    ASSERT_EQ(api.light_update(context, light, &sun.desc), LODESTAR_OK);
+    ASSERT_EQ(api.light_state(context, light, &state), LODESTAR_OK);
+    EXPECT_NE(state.version, version);
+    ASSERT_EQ(api.radiance(context, up, 1.0, after), LODESTAR_OK);
+    EXPECT_NEAR(after[0], 0.5 * before[0], 1e-2 * before[0]); // nine bits of a root
+    EXPECT_NEAR(after[1], before[1], 1e-2 * before[1]);
+    ASSERT_EQ(api.light_destroy(context, light), LODESTAR_OK);
+    EXPECT_EQ(api.light_destroy(context, light), LODESTAR_E_ARG);
+    LodestarLight next = 0;
+    ASSERT_EQ(api.light_create(context, &sun.desc, &next), LODESTAR_OK);
+    EXPECT_NE(next, light) << "a stale handle never comes back";
+}
+
+TEST_F(Abi, BadArgumentsAreStatusesAndWords) {
+    Sun sun;
+    LodestarLight light = 0;
+    double rgb[3];
+    const double up[3] = {0, 1, 0}, none[3] = {0, 0, 0}, odd[3] = {0, std::nan(""), 0};
+    EXPECT_EQ(api.light_create(nullptr, &sun.desc, &light), LODESTAR_E_ARG);
+    EXPECT_EQ(api.light_create(context, nullptr, &light), LODESTAR_E_ABI);
+    EXPECT_EQ(api.light_create(context, &sun.desc, nullptr), LODESTAR_E_ARG);
+    EXPECT_EQ(api.radiance(context, none, 1.0, rgb), LODESTAR_E_ARG);
+    EXPECT_EQ(api.radiance(context, odd, 1.0, rgb), LODESTAR_E_ARG);
+    EXPECT_EQ(api.radiance(context, nullptr, 1.0, rgb), LODESTAR_E_ARG);
+    EXPECT_EQ(api.radiance(context, up, std::nan(""), rgb), LODESTAR_OK) << "as 0";
+    EXPECT_EQ(api.set_hour(context, HUGE_VAL), LODESTAR_E_ARG);
+    EXPECT_EQ(api.lights(context, nullptr, nullptr), LODESTAR_E_ARG);
+    EXPECT_EQ(api.light_texels(context, 77, 0, nullptr, nullptr), LODESTAR_E_ARG);
+    const auto refusedWith = [&](const char* words) {
+        EXPECT_NE(api.light_create(context, &sun.desc, &light), LODESTAR_OK) << words;
+        EXPECT_NE(std::string(api.last_error(context)).find(words), std::string::npos)
+            << api.last_error(context);
+        sun.reset();
+    };
+    sun.desc.kind = 7;
+    refusedWith("sky or a sun");
+    sun.desc.key_count = 0;
+    refusedWith("/keys");
+    sun.key.stop_count = 0;
+    refusedWith("stops");
+    sun.stops[1].at = 200.0;
+    refusedWith("/stops/1/at");
+    sun.key.hour = std::nan("");
+    refusedWith("hour");
+    sun.key.interpolation = 9;
+    refusedWith("interpolation");
+    sun.desc.key_stride = 3;
+    refusedWith("stride");
+    sun.desc.has_path = 1;
+    sun.desc.day_of_year = 400;
+    refusedWith("day");
+    // Repaired, and said.
+    counting.logged.clear();
+    sun.stops[0].color[0] = -1.0;
+    sun.desc.axis[1] = 0.0;
+    EXPECT_EQ(api.light_create(context, &sun.desc, &light), LODESTAR_OK);
+    EXPECT_EQ(counting.logged.size(), 2u);
+    EXPECT_EQ(counting.logged.at(0).substr(0, 4), "100 ");
+}
+
+TEST_F(Abi, StructsOfOtherVersions) {
+    Sun sun;
+    LodestarLight light = 0;
+    // Of before: without keys there is no light; a key without its axis members is one.
+    sun.desc.struct_size = offsetof(LodestarLightDesc, key_count);
+    EXPECT_EQ(api.light_create(context, &sun.desc, &light), LODESTAR_E_ARG);
+    sun.reset();
+    sun.key.struct_size = offsetof(LodestarKey, has_axis);
+    EXPECT_EQ(api.light_create(context, &sun.desc, &light), LODESTAR_OK) << api.last_error(context);
+    // Of later: members that this library lacks must be 0.
+    struct {
+        LodestarLightDesc desc;
+        double more;
+    } later{sun.desc, 0.0};
+    later.desc.struct_size = sizeof later;
+    EXPECT_EQ(api.light_create(context, &later.desc, &light), LODESTAR_OK);
+    later.more = 1.0;
+    EXPECT_EQ(api.light_create(context, &later.desc, &light), LODESTAR_E_ABI);
+    LodestarLightState state{};
+    EXPECT_EQ(api.light_state(context, light, &state), LODESTAR_E_ABI);
+    state.struct_size = offsetof(LodestarLightState, visibility);
+    state.visibility = -5.0;
+    EXPECT_EQ(api.light_state(context, light, &state), LODESTAR_OK);
+    EXPECT_EQ(state.visibility, -5.0) << "behind the host's struct nothing is written";
+}
+
+TEST_F(Abi, BrokenDocumentsNameTheirPointer) {
+    LodestarDocument document = 0;
+    const auto load = [&](const std::string& text) {
+        return api.document_load(context, text.data(), text.size(), &document);
+    };
+    EXPECT_EQ(load(""), LODESTAR_E_DOCUMENT);
+    EXPECT_EQ(load(R"({"lodestar": 2})"), LODESTAR_E_DOCUMENT);
+    EXPECT_NE(std::string(api.last_error(context)).find("/lodestar"), std::string::npos);
+    std::string text = clearSky();
+    EXPECT_EQ(load(text.substr(0, text.size() / 2)), LODESTAR_E_DOCUMENT);
+    text.replace(text.find("\"sun\", \"kind\": \"sun\"") == std::string::npos
+                     ? text.rfind("\"sun\"")
+                     : text.rfind("\"sun\""),
+                 5, "\"son\"");
+    EXPECT_EQ(load(text), LODESTAR_E_DOCUMENT);
+    EXPECT_NE(std::string(api.last_error(context)).find("/lights/1/kind"), std::string::npos)
+        << api.last_error(context);
+    EXPECT_EQ(api.document_load(context, nullptr, 3, &document), LODESTAR_E_ARG);
+}
+
+TEST_F(Abi, AnotherThreadIsRefused) {
+    LodestarStatus status = LODESTAR_OK;
+    std::thread([&] { status = api.set_hour(context, 3.0); }).join();
+    EXPECT_EQ(status, LODESTAR_E_THREAD);
+    std::thread([&] { status = api.context_destroy(context); }).join();
+    EXPECT_EQ(status, LODESTAR_E_THREAD);
+    // [any] functions need no context.
+    std::thread([&] {
+        LodestarMapLayout layout{};
+        layout.struct_size = sizeof layout;
+        status = api.map_layout(&layout);
+    }).join();
+    EXPECT_EQ(status, LODESTAR_OK);
+}
+
+/// What a host does in an afternoon; the first status that is not LODESTAR_OK, else that.
+LodestarStatus afternoon(const LodestarApi& api, LodestarContext* context,
+                         const std::string& text) {
+    LodestarDocument document = 0;
+    LodestarLight light = 0;
+    double rgb[3];
+    const double up[3] = {0, 1, 0};
+    Sun sun;
+    LodestarStatus status = api.document_load(context, text.data(), text.size(), &document);
+    status = status != LODESTAR_OK ? status : api.document_apply(context, document);
+    status = status != LODESTAR_OK ? status : api.light_create(context, &sun.desc, &light);
+    status = status != LODESTAR_OK ? status : api.set_hour(context, 16.0);
+    return status != LODESTAR_OK ? status : api.radiance(context, up, 32.0, rgb);
+}
+
+// Whichever allocation fails, the call says so, nothing is lost, and the same call then works.
+TEST_F(Abi, MemoryThatRunsOutIsAStatus) {
+    // One key and one light: a small document, so that every allocation can have its turn.
+    const std::string text =
+        R"({"lodestar": 1, "lights": [{"kind": "sky", "keys": [{"hour": 12, "gradient": {"stops": [
+            {"at": 90, "color": [0.1, 0.2, 0.4]}, {"at": -90, "color": [1, 1, 1]}]}}]}]})";
+    counting.calls = 0;
+    ASSERT_EQ(afternoon(api, context, text), LODESTAR_OK);
+    const std::size_t calls = counting.calls;
+    ASSERT_GT(calls, 100u);
+    // All of the first hundred, then some of the many that the kernels make.
+    std::size_t failed = 0;
+    for (std::size_t at = 0; at < calls; at += at < 100 ? 1 : calls / 20) {
+        LodestarContext* other = nullptr;
+        const LodestarHost host = counting.host();
+        counting.failAt = std::numeric_limits<std::size_t>::max();
+        ASSERT_EQ(api.context_create(&host, &other), LODESTAR_OK);
+        counting.calls = 0;
+        counting.failAt = at;
+        EXPECT_EQ(afternoon(api, other, text), LODESTAR_E_NOMEM) << "allocation " << at;
+        ++failed;
+        counting.failAt = std::numeric_limits<std::size_t>::max();
+        EXPECT_EQ(api.context_destroy(other), LODESTAR_OK);
+    }
+    EXPECT_GT(failed, 100u);
+    counting.calls = 0;
+    counting.failAt = 0;
+    LodestarContext* none = nullptr;
+    const LodestarHost host = counting.host();
+    EXPECT_EQ(api.context_create(&host, &none), LODESTAR_E_NOMEM);
+    EXPECT_EQ(none, nullptr);
+    EXPECT_NE(std::string(api.last_error(nullptr)).find("memory"), std::string::npos);
+    counting.failAt = std::numeric_limits<std::size_t>::max();
+}
+
+long residentPages() {
+    long size = 0, resident = 0;
+    std::ifstream("/proc/self/statm") >> size >> resident;
+    return resident;
+}
+
+bool isMapped() {
+    std::ifstream maps("/proc/self/maps");
+    const std::string text{std::istreambuf_iterator<char>(maps), {}};
+    return text.find("liblodestar.so") != std::string::npos;
+}
+
+TEST(AbiEntry, ItUnloadsAndMemoryStaysFlat) {
+    const std::string text = clearSky();
+    long before = 0;
+    for (int round = 0; round < 50; ++round) {
+        {
+            const Library library;
+            const LodestarApi api = library.api();
+            LodestarContext* context = nullptr;
+            ASSERT_EQ(api.context_create(nullptr, &context), LODESTAR_OK);
+            LodestarDocument document = 0;
+            ASSERT_EQ(api.document_load(context, text.data(), text.size(), &document), LODESTAR_OK);
+            ASSERT_EQ(api.document_apply(context, document), LODESTAR_OK);
+            EXPECT_TRUE(isMapped());
+            ASSERT_EQ(api.context_destroy(context), LODESTAR_OK);
+        }
+        ASSERT_FALSE(isMapped()) << "round " << round;
+        if (round == 9) {
+            before = residentPages();
+        }
+    }
+    // What the C library keeps for itself settles in the first rounds; after that not a page a
+    // round.
+    EXPECT_LT(residentPages() - before, 40);
+}
+
+} // namespace
+} // namespace lodestar::testing
