@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The command line as a contract: exit statuses, one-line errors, JSON that parses.
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -181,6 +182,51 @@ TEST(CommandLine, ASceneIsChosenByNameOrNumber) {
     EXPECT_EQ(subject({"--scene", "attic"}), "chest/0");
     EXPECT_EQ(subject({"--scene", "1"}), "chest/0");
     EXPECT_EQ(subject({"--scene", "hall"}), "table/0");
+}
+
+/// How many pixels of the left and of the right half of a picture show something.
+std::array<int, 2> coveredHalves(const std::string& picture) {
+    const core::Image image = readPicture(picture);
+    std::array<int, 2> halves{};
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            halves[x < image.width() / 2 ? 0 : 1] += image.at(x, y)[3] > 0.0f ? 1 : 0;
+        }
+    }
+    return halves;
+}
+
+TEST(CommandLine, ASceneIsShownByNameAndByNumber) {
+    const TemporaryFolder folder;
+    const float corners[] = {-0.4f, 0, 0, 0.4f, 0, 0, 0, 0.4f, 0};
+    std::ofstream(folder.file("corners.bin"), std::ios::binary)
+        .write(reinterpret_cast<const char*>(corners), sizeof corners);
+    const std::string file = folder.file("two.gltf");
+    std::ofstream(file) << R"({"asset": {"version": "2.0"}, "scene": 1,
+        "scenes": [{"name": "left", "nodes": [0]}, {"name": "right", "nodes": [1]}],
+        "nodes": [{"mesh": 0, "translation": [-0.6, 0, 0]}, {"mesh": 0, "translation": [0.6, 0, 0]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                       "min": [-0.4, 0, 0], "max": [0.4, 0.4, 0]}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"uri": "corners.bin", "byteLength": 36}]})";
+    const std::pair<std::vector<std::string>, std::size_t> cases[] = {{{}, 1},
+                                                                      {{"--scene", "left"}, 0},
+                                                                      {{"--scene", "0"}, 0},
+                                                                      {{"--scene", "right"}, 1},
+                                                                      {{"--scene", "1"}, 1}};
+    for (const auto& [choice, half] : cases) {
+        const std::string out = folder.file("seen.exr");
+        std::vector<std::string> call = {
+            "render",       file,      "-o",       out,       "--size",        "64x64",
+            "--eye",        "0,0.2,3", "--target", "0,0.2,0", "--environment", "constant:1,1,1",
+            "--no-backdrop"};
+        call.insert(call.end(), choice.begin(), choice.end());
+        const RunResult run = runLodestar(call);
+        ASSERT_EQ(run.status, 0) << run.err;
+        EXPECT_GT(coveredHalves(out)[half], 20);
+        EXPECT_EQ(coveredHalves(out)[1 - half], 0);
+    }
 }
 
 TEST(CommandLine, FramesAreNumbered) {

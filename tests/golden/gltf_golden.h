@@ -74,6 +74,12 @@ inline int covered(const core::Image& image) {
     return count;
 }
 
+/// What a byte of sRGB stands for.
+inline float linearFromByte(int byte) {
+    const float encoded = static_cast<float>(byte) / 255.0f;
+    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
 /// Every primitive of the file.
 inline void eachPrimitive(Json& document, const std::function<void(Json&)>& change) {
     for (Json& mesh : document["meshes"]) {

@@ -112,24 +112,22 @@ void refraction(GltfBuilder& file) {
     fourPanels(file, materials);
 }
 
+constexpr unsigned char kFaces[6][4] = {{255, 40, 40, 128},  {40, 255, 40, 255},
+                                        {60, 90, 255, 102},  {120, 100, 60, 255},
+                                        {255, 230, 60, 255}, {90, 230, 230, 204}};
+
 /// A mirror ball and a white one in the file's own light: six pictures on disk, RGBD, each with a
 /// dark upper left quarter; turned by a quarter about +Y, of intensity 2. The second level is black
 /// and the irradiance coefficients are wild: neither is read (decision 9).
 void imageBasedLight(GltfBuilder& file) {
     file.uses("EXT_lights_image_based");
-    const std::array<std::array<unsigned char, 4>, 6> faces = {{{255, 40, 40, 128},
-                                                                {40, 255, 40, 255},
-                                                                {60, 90, 255, 102},
-                                                                {120, 100, 60, 255},
-                                                                {255, 230, 60, 255},
-                                                                {90, 230, 230, 204}}};
     Json levels = {Json::array(), Json::array()};
     for (std::size_t face = 0; face < 6; ++face) {
         core::Texels image(8, 8);
         for (std::size_t i = 0; i < 64; ++i) {
             const bool dark = i % 8 < 4 && i / 8 < 4;
             for (std::size_t c = 0; c < 4; ++c) {
-                image.bytes()[4 * i + c] = dark && c < 3 ? faces[face][c] / 4 : faces[face][c];
+                image.bytes()[4 * i + c] = dark && c < 3 ? kFaces[face][c] / 4 : kFaces[face][c];
             }
         }
         core::Texels none(4, 4);
@@ -170,21 +168,79 @@ void asGiven(Json& document) {
     light.erase("intensity");
 }
 
-float linear(int byte) {
-    return std::pow((static_cast<float>(byte) / 255.0f + 0.055f) / 1.055f, 2.4f);
+/// The radiance of a face's lit or dark part: intensity 2, colours over alpha.
+glm::vec3 faceRadiance(int face, bool dark) {
+    glm::vec3 result;
+    for (int c = 0; c < 3; ++c) {
+        result[c] = linearFromByte(dark ? kFaces[face][c] / 4 : kFaces[face][c]);
+    }
+    return result * (2.0f * 255.0f / static_cast<float>(kFaces[face][3]));
 }
 
-/// The mirror's middle shows what lies towards +Z: the quarter turn has brought -X there. Its edge
-/// towards +Y by 45 degrees shows +Y. The lower right quarter of a face has its full colour.
+/// Where a direction of the light's own frame meets a cube: face, and s and t in [0, 1]. OpenGL's
+/// table [OpenGL 3.3 specification, 3.8.6].
+struct CubePlace {
+    int face;
+    float s, t;
+};
+CubePlace cubePlace(const glm::vec3& d) {
+    const glm::vec3 a = glm::abs(d);
+    const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+    const bool negative = d[axis] < 0.0f;
+    const float sign = negative ? -1.0f : 1.0f;
+    const float across = axis == 0 ? -sign * d.z : axis == 1 ? d.x : sign * d.x;
+    const float down = axis == 1 ? sign * d.z : -d.y;
+    return {2 * axis + (negative ? 1 : 0), 0.5f + 0.5f * across / a[axis],
+            0.5f + 0.5f * down / a[axis]};
+}
+
+/// Which of the faces' lit parts a colour is nearest to.
+int nearestFace(const glm::vec3& color) {
+    int nearest = 0;
+    for (int face = 1; face < 6; ++face) {
+        const auto away = [&](int k) { return glm::distance(color, faceRadiance(k, false)); };
+        nearest = away(face) < away(nearest) ? face : nearest;
+    }
+    return nearest;
+}
+
+/// The mirror ball shows each face's lit and dark parts where OpenGL's table has them, turned: what
+/// the light has along (-z, y, x) comes from (x, y, z).
 void lightFromDisk(const Shot& shot) {
-    // A little to the right of and below the middle, that the reflection meets the lit quarter.
-    const float* front = shot.at(-0.55f + 0.06f, -0.06f);
-    const glm::vec3 negativeX = 2.0f * glm::vec3(linear(40), linear(255), linear(40));
-    expectColor(front, negativeX, 2e-3f * 2.0f); // an sRGB table of 8 bits
-    // White balls show irradiance over pi: no more than the brightest, no less than the darkest.
+    std::array<int, 6> seen{};
+    for (int k = 0; k < 40 * 40; ++k) {
+        // The middle of a pixel, in radii of the ball; towards the rim a pixel sees too much.
+        const glm::vec2 p((static_cast<float>(k % 40) - 19.5f) / 20.0f,
+                          (static_cast<float>(k / 40) - 19.5f) / 20.0f);
+        const float z = std::sqrt(std::max(1.0f - glm::dot(p, p), 0.0f));
+        const glm::vec3 world(2.0f * z * p.x, 2.0f * z * p.y, 2.0f * z * z - 1.0f);
+        const CubePlace at = cubePlace({-world.z, world.y, world.x});
+        // A pixel of 0.1 rad reads texels of 1/16 of a face, blended over two; a neighbour that is
+        // a hundred times as bright as a dark part shows from three.
+        const auto clear = [&](float value) {
+            return std::min(value, 1.0f - value) > 3.0f / 16.0f &&
+                   std::abs(value - 0.5f) > 2.0f / 16.0f;
+        };
+        if (z > 0.5f && clear(at.s) && clear(at.t)) {
+            ++seen[static_cast<std::size_t>(at.face)];
+            const float* pixel = shot.at(-0.55f + 0.5f * p.x, 0.5f * p.y);
+            const glm::vec3 color(pixel[0], pixel[1], pixel[2]);
+            const bool dark = at.s < 0.5f && at.t < 0.5f;
+            EXPECT_EQ(glm::distance(color, faceRadiance(at.face, true)) <
+                          glm::distance(color, faceRadiance(at.face, false)),
+                      dark)
+                << "pixel " << k << " of the ball, face " << at.face;
+            EXPECT_TRUE(dark || nearestFace(color) == at.face) << "pixel " << k << " of the ball";
+        }
+    }
+    for (std::size_t face = 1; face < 6; ++face) {
+        EXPECT_GT(seen[face], 5) << face;
+    }
+    const float* behind = shot.at(-1.1f, 1.1f); // the middle of +X, which the ball shows at its rim
+    EXPECT_EQ(nearestFace({behind[0], behind[1], behind[2]}), 0);
     const float* white = shot.at(0.55f, 0.0f);
     for (int c = 0; c < 3; ++c) {
-        EXPECT_GT(white[c], 0.0f);
+        EXPECT_GT(white[c], 0.0f) << "the second level was read";
         EXPECT_LT(white[c], 5.0f) << "the coefficients were read";
     }
 }
@@ -220,7 +276,7 @@ void nextMode(Json& document) {
 /// In each of the ramp's four columns, over the backing and over nothing.
 template <int kMode>
 void composed(const Shot& shot) {
-    const glm::vec3 front(1.0f, linear(128), 0.0f);
+    const glm::vec3 front(1.0f, linearFromByte(128), 0.0f);
     const glm::vec3 backing(0.2f, 0.3f, 0.6f);
     for (int column = 0; column < 4; ++column) {
         const float a = static_cast<float>(3 - column) / 3.0f;

@@ -21,9 +21,8 @@ glm::vec3 colorAt(const glm::vec2& uv) {
     const glm::vec2 in = uv - glm::floor(uv);
     glm::vec3 result;
     for (int c = 0; c < 3; ++c) {
-        const float encoded = colors.value(in.x < 0.5f ? 0 : 1, in.y < 0.5f ? 0 : 1, c);
-        result[c] =
-            encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+        const std::size_t texel = (in.x < 0.5f ? 0U : 1U) + (in.y < 0.5f ? 0U : 2U);
+        result[c] = linearFromByte(colors.bytes()[4 * texel + static_cast<std::size_t>(c)]);
     }
     return result;
 }
