@@ -63,6 +63,21 @@ const io::GltfPrimitive& primitiveOf(const Scene& scene, const DrawItem& item) {
         .primitives[static_cast<std::size_t>(item.primitive)];
 }
 
+/// How much of a primitive follows each joint, in vertices; empty if none does.
+std::vector<double> followersOf(const io::GltfPrimitive& primitive) {
+    std::vector<double> followers;
+    for (std::size_t set = 0; set < io::kInfluenceSets; ++set) {
+        for (std::size_t i = 0; i < primitive.joints[set].size(); ++i) {
+            for (glm::length_t k = 0; k < 4; ++k) {
+                const std::size_t joint = primitive.joints[set][i][k];
+                followers.resize(std::max(followers.size(), joint + 1));
+                followers[joint] += double{primitive.weights[set][i][k]};
+            }
+        }
+    }
+    return followers;
+}
+
 } // namespace
 
 MorphedVertices morph(const io::GltfPrimitive& primitive, const std::vector<float>& weights) {
@@ -106,6 +121,7 @@ core::Result<GpuDeformation> GpuDeformation::make(gl::Device& device, const Scen
         if (!primitiveOf(scene, item).targets.empty()) {
             morph.emplace().vertices = gl::VertexArray(device);
         }
+        result.followers_.push_back(followersOf(primitiveOf(scene, item)));
     }
     std::size_t texels = 0;
     for (std::size_t s = 0; s < scene.skins.size(); ++s) {
@@ -138,7 +154,7 @@ void GpuDeformation::describe(const Scene& scene, const std::vector<DrawItem>& i
     input.jointsMoved = joints_ != uploadedJoints_;
     for (std::size_t i = 0; i < morphs_.size(); ++i) {
         if (plan::has(input.draws[i].features, plan::Feature::Skinning)) {
-            input.draws[i].mirrored = mirrored(componentOf(scene, items[i]).skin);
+            input.draws[i].mirrored = mirrored(i, componentOf(scene, items[i]).skin);
         }
         if (morphs_[i]) {
             input.draws[i].weightsChanged =
@@ -216,14 +232,14 @@ float GpuDeformation::firstTexel(int skin) const {
                              : static_cast<float>(firstTexels_[static_cast<std::size_t>(skin)]);
 }
 
-bool GpuDeformation::mirrored(int skin) const {
-    const std::size_t begin = firstTexels_[static_cast<std::size_t>(skin)];
-    const std::size_t end = firstTexels_[static_cast<std::size_t>(skin) + 1];
-    std::size_t count = 0;
-    for (std::size_t i = begin; i < end; i += kTexelsPerJoint) {
-        count += mirrors(&joints_[i]) ? 1U : 0U;
+bool GpuDeformation::mirrored(std::size_t item, int skin) const {
+    const glm::vec4* rows = &joints_[firstTexels_[static_cast<std::size_t>(skin)]];
+    double straight = 0.0;
+    for (const double count : followers_[item]) {
+        straight += mirrors(rows) ? -count : count;
+        rows += kTexelsPerJoint;
     }
-    return 2 * kTexelsPerJoint * count > end - begin;
+    return straight < 0.0;
 }
 
 const gl::VertexArray* GpuDeformation::vertices(std::size_t item) const {

@@ -48,8 +48,8 @@ public:
     [[nodiscard]] const gl::VertexArray* vertices(std::size_t item) const;
 
 private:
-    /// Whether a skin's joints turn most of what follows them inside out, in the pose described.
-    [[nodiscard]] bool mirrored(int skin) const;
+    /// Whether a skin's joints turn most of a draw item inside out, in the pose described.
+    [[nodiscard]] bool mirrored(std::size_t item, int skin) const;
 
     struct Morph {
         std::vector<float> uploaded; ///< the weights that the buffers hold; empty: none yet
@@ -66,7 +66,8 @@ private:
     std::vector<glm::vec4> uploadedJoints_;
     std::optional<gl::Buffer> jointBuffer_;
     gl::Texture jointTexture_;
-    std::vector<std::optional<Morph>> morphs_; ///< by draw item
+    std::vector<std::optional<Morph>> morphs_;   ///< by draw item
+    std::vector<std::vector<double>> followers_; ///< by draw item and joint: how much follows it
 };
 
 } // namespace lodestar::scene
