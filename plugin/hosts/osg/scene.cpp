@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "scene.h"
+
+#include <osg/CullFace>
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "lodestar/lobes.glsl"
+
+namespace lodestar::osghost {
+namespace {
+
+osg::Vec4 vec4(const glm::vec3& v, float w) {
+    return {v.x, v.y, v.z, w};
+}
+
+void setMaterial(const io::GltfMaterial& material, osg::StateSet& state) {
+    glm::vec3 base(material.baseColor);
+    glm::vec3 diffuse = shader::lodestar_diffuseFromMetallic(base, material.metallic);
+    glm::vec3 f0 = shader::lodestar_f0FromMetallic(base, material.metallic);
+    float exponent = shader::lodestar_exponentFromRoughness(material.roughness);
+    if (material.blinnPhong) {
+        diffuse = material.blinnPhong->diffuse.value_or(base);
+        f0 = material.blinnPhong->f0.value_or(glm::vec3(0.04f));
+        exponent = material.blinnPhong->exponent.value_or(0.0f);
+    }
+    state.addUniform(new osg::Uniform("material_diffuse", vec4(diffuse, 0.0f)));
+    state.addUniform(new osg::Uniform("material_f0", vec4(f0, exponent)));
+    if (!material.doubleSided) {
+        state.setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
+    }
+}
+
+osg::ref_ptr<osg::Geometry> geometryOf(const io::GltfPrimitive& primitive) {
+    osg::ref_ptr<osg::Vec3Array> positions = new osg::Vec3Array;
+    osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array;
+    for (std::size_t i = 0; i < primitive.positions.size(); ++i) {
+        const glm::vec3& p = primitive.positions[i];
+        const glm::vec3 n = i < primitive.normals.size() ? primitive.normals[i] : glm::vec3(0.0f);
+        positions->push_back(osg::Vec3(p.x, p.y, p.z));
+        normals->push_back(osg::Vec3(n.x, n.y, n.z));
+    }
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setVertexArray(positions);
+    geometry->setNormalArray(normals, osg::Array::BIND_PER_VERTEX);
+    geometry->addPrimitiveSet(new osg::DrawElementsUInt(
+        GL_TRIANGLES, static_cast<unsigned>(primitive.indices.size()), primitive.indices.data()));
+    geometry->setUseDisplayList(false);
+    geometry->setUseVertexBufferObjects(true);
+    return geometry;
+}
+
+osg::Matrixd matrixOf(const io::GltfNode& node) {
+    const glm::dmat4 m = node.hasMatrix
+                             ? glm::dmat4(node.matrix)
+                             : glm::translate(glm::dmat4(1.0), glm::dvec3(node.translation)) *
+                                   glm::mat4_cast(glm::dquat(node.rotation)) *
+                                   glm::scale(glm::dmat4(1.0), glm::dvec3(node.scale));
+    return osg::Matrixd(glm::value_ptr(m)); // both lie column after column for column vectors
+}
+
+osg::ref_ptr<osg::Node> nodeOf(const io::GltfFile& file, int index) {
+    const io::GltfNode& node = file.nodes[static_cast<std::size_t>(index)];
+    osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(matrixOf(node));
+    transform->setName(node.name);
+    if (node.mesh != io::kNone) {
+        osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+        for (const io::GltfPrimitive& primitive :
+             file.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
+            if (primitive.topology != io::Topology::Triangles) {
+                continue;
+            }
+            osg::ref_ptr<osg::Geometry> geometry = geometryOf(primitive);
+            setMaterial(primitive.material == io::kNone
+                            ? io::GltfMaterial{}
+                            : file.materials[static_cast<std::size_t>(primitive.material)],
+                        *geometry->getOrCreateStateSet());
+            geode->addDrawable(geometry);
+        }
+        transform->addChild(geode);
+    }
+    for (const int child : node.children) {
+        transform->addChild(nodeOf(file, child));
+    }
+    return transform;
+}
+
+} // namespace
+
+osg::ref_ptr<osg::Group> sceneOf(const io::GltfFile& file) {
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    if (file.defaultScene != io::kNone) {
+        for (const int index : file.scenes[static_cast<std::size_t>(file.defaultScene)].roots) {
+            root->addChild(nodeOf(file, index));
+        }
+    }
+    return root;
+}
+
+} // namespace lodestar::osghost
