@@ -17,6 +17,7 @@
 #include "app/commands.h"
 #include "io/image_file.h"
 #include "lighting/rsrm.h"
+#include "lighting/rsrm_weights.h"
 
 namespace lodestar::app {
 namespace {
@@ -32,6 +33,7 @@ struct BakeOptions {
     int columns = 0; ///< 0: the layout's own
     std::string encoding = "float";
     std::string layout = "rsrm";
+    bool errors = false;
 };
 
 core::Result<lighting::RsrmLayout> parseLayout(const BakeOptions& options) {
@@ -96,15 +98,62 @@ core::Image decoded(const lighting::RsrmLayout& layout, const lighting::RsrmBake
     return image;
 }
 
+/// Worst difference of each row from double precision, over the row's peak, at every tenth column
+/// and the last: exact weights by rings over zones a quarter as wide.
+core::Result<std::vector<double>> rowErrors(const BakeOptions& options,
+                                            const lighting::RsrmLayout& layout,
+                                            const std::vector<double>& exponents,
+                                            const core::Image& image) {
+    core::Tally counted; // by the baking already
+    const auto fine = loadBakeSource(
+        options.source,
+        [](lighting::LightKind kind) {
+            lighting::Zones zones = lighting::zonesFor(kind);
+            zones.count *= 4;
+            return zones;
+        },
+        counted);
+    if (!fine) {
+        return fine.error();
+    }
+    const std::vector<double> edges = lighting::zoneEdges(fine->radiance.zones);
+    const std::vector<double> angles = lighting::columnAngles(layout.columnMap, layout.columns);
+    const int step = std::max(1, (layout.columns - 1) / 10);
+    std::vector<double> errors;
+    for (std::size_t row = 0; row < exponents.size(); ++row) {
+        double worst = 0.0;
+        double peak = 0.0;
+        for (int column = 0; column < layout.columns;) {
+            const std::vector<double> weights = lighting::ringWeights(
+                angles[static_cast<std::size_t>(column)], edges, exponents[row]);
+            glm::dvec3 sum(0.0);
+            for (std::size_t j = 0; j < weights.size(); ++j) {
+                sum += weights[j] * fine->radiance.means[j];
+            }
+            for (int c = 0; c < 3; ++c) {
+                const double stored = image.at(column, static_cast<int>(row))[c];
+                worst = std::max(worst, std::abs(stored - sum[c]));
+                peak = std::max(peak, sum[c]);
+            }
+            column = column == layout.columns - 1 ? layout.columns
+                                                  : std::min(column + step, layout.columns - 1);
+        }
+        errors.push_back(peak > 0.0 ? worst / peak : worst);
+    }
+    return errors;
+}
+
 nlohmann::ordered_json describe(const BakeOptions& options, const BakeSource& source,
                                 const lighting::RsrmLayout& layout,
-                                const std::vector<double>& exponents, const core::Image& image) {
+                                const std::vector<double>& exponents, const core::Image& image,
+                                const core::Tally& warnings) {
     nlohmann::ordered_json json;
     json["source"] = source.what;
     json["kind"] = source.kind == lighting::LightKind::Sun ? "sun" : "sky";
     json["layout"] = options.layout;
     json["encoding"] = options.encoding;
     json["columns"] = layout.columns;
+    json["rows"] = layout.rows;
     json["exponents"] = exponents;
     json["bytes"] = lighting::texelBytes(layout);
     for (int row = 0; row < image.height(); ++row) {
@@ -114,6 +163,7 @@ nlohmann::ordered_json describe(const BakeOptions& options, const BakeSource& so
     if (source.residual) {
         json["residual"] = *source.residual;
     }
+    json["warnings"] = warnings.counts();
     return json;
 }
 
@@ -131,19 +181,29 @@ int runBake(const BakeOptions& options) {
     }
     layout->rows = static_cast<int>(exponents->size());
     core::Tally warnings;
-    const auto source = loadBakeSource(options.source, *layout, warnings);
+    const auto source = loadBakeSource(
+        options.source, [&](lighting::LightKind kind) { return lighting::zonesFor(*layout, kind); },
+        warnings);
     if (!source) {
         return fail(source.error());
     }
     warn(warnings, options.source.source);
     const core::Image image = decoded(*layout, filtered(*source, *layout, *exponents));
+    auto answer = describe(options, *source, *layout, *exponents, image, warnings);
+    if (options.errors) {
+        const auto errors = rowErrors(options, *layout, *exponents, image);
+        if (!errors) {
+            return fail(errors.error());
+        }
+        answer["errors"] = *errors;
+    }
     const bool published = layout->columnMap == lighting::RsrmColumns::UniformHeight;
     const auto written = io::writeImage(options.output, image,
                                         {{"lodestar:layout", published ? "published" : "u2"}});
     if (!written) {
         return fail(written.error());
     }
-    std::printf("%s\n", describe(options, *source, *layout, *exponents, image).dump(2).c_str());
+    std::printf("%s\n", answer.dump(2).c_str());
     return 0;
 }
 
@@ -157,7 +217,8 @@ void addBake(CLI::App& app, int& status) {
                 "Examples: the sun of a document at dusk; how symmetric a photographed sky is\n"
                 "  lodestar bake dusk.lodestar.json --light sun --hour 19.5 -o sun.exr\n"
                 "  lodestar bake park.hdr --exponents 1,64,1024 -o park.exr\n"
-                "answers JSON: kind, exponents, peaks; \"residual\" of a panorama is the share of "
+                "answers JSON: rows, columns, bytes, peaks, warnings; \"residual\" of a panorama "
+                "is the share of "
                 "its light that is not symmetric about the axis.");
     BakeSourceOptions& source = options->source;
     command
@@ -185,6 +246,9 @@ void addBake(CLI::App& app, int& status) {
         "--layout", options->layout,
         "rsrm (default): exact weights, columns even in u2; rsrm-published: Stone's "
         "weights and columns");
+    command->add_flag("--errors", options->errors,
+                      "Also answer each row's worst error over its peak, against sums in double "
+                      "precision at a tenth of the columns (a second or two)");
     command->callback([options, &status] { status = runBake(*options); });
 }
 

@@ -12,7 +12,6 @@
 #include "io/document_file.h"
 #include "io/environment_file.h"
 #include "lighting/day.h"
-#include "lighting/rsrm_kernel.h"
 #include "lighting/zonal_picture.h"
 
 namespace lodestar::app {
@@ -60,8 +59,8 @@ core::Result<const DayLight*> choose(const std::vector<DayLight>& lights,
     return &lights[number];
 }
 
-core::Result<BakeSource> fromDocument(const BakeSourceOptions& options,
-                                      const lighting::RsrmLayout& layout, core::Tally& warnings) {
+core::Result<BakeSource> fromDocument(const BakeSourceOptions& options, const ZonesOfKind& zonesOf,
+                                      core::Tally& warnings) {
     if (!options.axis.empty() || !options.kind.empty()) {
         return usage("--axis and --kind are for pictures: a document's lights have their own");
     }
@@ -89,7 +88,7 @@ core::Result<BakeSource> fromDocument(const BakeSourceOptions& options,
     if (moment.visibility <= 0.0) {
         warnings.add("the sun is below the horizon at this hour: its map is black");
     }
-    const lighting::Zones zones = lighting::zonesFor(layout, (*light)->kind);
+    const lighting::Zones zones = zonesOf((*light)->kind);
     return BakeSource{"document",
                       (*light)->kind,
                       lighting::blended(lighting::keyRadiance(**light, moment.keys.from, zones),
@@ -98,8 +97,8 @@ core::Result<BakeSource> fromDocument(const BakeSourceOptions& options,
                       {}};
 }
 
-core::Result<BakeSource> fromPicture(const BakeSourceOptions& options,
-                                     const lighting::RsrmLayout& layout, core::Tally& warnings) {
+core::Result<BakeSource> fromPicture(const BakeSourceOptions& options, const ZonesOfKind& zonesOf,
+                                     core::Tally& warnings) {
     if (!options.light.empty() || options.hour) {
         return usage("--light and --hour are for lighting documents");
     }
@@ -107,7 +106,7 @@ core::Result<BakeSource> fromPicture(const BakeSourceOptions& options,
         return usage("\"" + options.kind + "\" is no kind of light; these are: sky, sun");
     }
     const LightKind kind = options.kind == "sun" ? LightKind::Sun : LightKind::Sky;
-    const lighting::Zones zones = lighting::zonesFor(layout, kind);
+    const lighting::Zones zones = zonesOf(kind);
     const auto image = io::loadRadiance(options.source, warnings);
     if (!image) {
         return image.error();
@@ -145,10 +144,10 @@ core::Result<BakeSource> fromPicture(const BakeSourceOptions& options,
 } // namespace
 
 core::Result<BakeSource> loadBakeSource(const BakeSourceOptions& options,
-                                        const lighting::RsrmLayout& layout, core::Tally& warnings) {
+                                        const ZonesOfKind& zonesOf, core::Tally& warnings) {
     return std::filesystem::path(options.source).extension() == ".json"
-               ? fromDocument(options, layout, warnings)
-               : fromPicture(options, layout, warnings);
+               ? fromDocument(options, zonesOf, warnings)
+               : fromPicture(options, zonesOf, warnings);
 }
 
 } // namespace lodestar::app

@@ -4,12 +4,12 @@
 // azimuth.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
 #include "core/result.h"
 #include "core/tally.h"
-#include "lighting/rsrm_layout.h"
 #include "lighting/zonal.h"
 
 namespace lodestar::app {
@@ -26,13 +26,15 @@ struct BakeSourceOptions {
 struct BakeSource {
     std::string what; ///< "document", "strip", "panorama"
     lighting::LightKind kind = lighting::LightKind::Sky;
-    lighting::ZonalRadiance radiance; ///< in the zones that the layout has for the kind
+    lighting::ZonalRadiance radiance; ///< in the zones asked for
     std::optional<double> residual;   ///< of a panorama, lighting::PanoramaZones
 };
 
+/// The zones that a kind of light is averaged in.
+using ZonesOfKind = std::function<lighting::Zones(lighting::LightKind)>;
+
 /// @errors Usage for words, InputRefused for the file
-[[nodiscard]] core::Result<BakeSource> loadBakeSource(const BakeSourceOptions& options,
-                                                      const lighting::RsrmLayout& layout,
-                                                      core::Tally& warnings);
+[[nodiscard]] core::Result<BakeSource>
+loadBakeSource(const BakeSourceOptions& options, const ZonesOfKind& zonesOf, core::Tally& warnings);
 
 } // namespace lodestar::app

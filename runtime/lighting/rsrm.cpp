@@ -233,7 +233,8 @@ glm::vec4 storedTexel(const RsrmTexels& texels, int column, int row) {
 
 std::vector<glm::vec3> storedRows(const RsrmLayout& layout, const RsrmBake& bake) {
     const bool roots = layout.columnMap == RsrmColumns::Refined;
-    const float scale = layout.encoding == RsrmEncoding::Unorm8 ? greatest(bake) : 1.0f;
+    // Values as they are may be beyond halves; their roots, at most 31623, are not.
+    const float scale = !roots || layout.encoding == RsrmEncoding::Unorm8 ? greatest(bake) : 1.0f;
     std::vector<glm::vec3> rows;
     std::vector<std::uint8_t> bytes;
     for (std::size_t k = 0; k < bake.exponents.size(); ++k) {

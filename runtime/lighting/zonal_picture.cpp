@@ -2,12 +2,14 @@
 #include "lighting/zonal_picture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include <glm/geometric.hpp>
 
 #include "core/contract.h"
+#include "core/quadrature.h"
 
 namespace lodestar::lighting {
 namespace {
@@ -18,64 +20,128 @@ double luminance(const glm::dvec3& radiance) {
     return glm::dot(radiance, glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
-/// Bilinear, wrapped along the horizon, clamped at the poles.
-glm::dvec3 lookup(const core::Image& panorama, const glm::dvec3& direction) {
-    const int width = panorama.width();
-    const int height = panorama.height();
-    const double x =
-        std::atan2(direction.x, -direction.z) / (2.0 * kPi) * width + 0.5 * width - 0.5;
-    const double y = std::acos(std::clamp(direction.y, -1.0, 1.0)) / kPi * height - 0.5;
-    const double left = std::floor(x);
-    const double top = std::floor(y);
-    const auto texel = [&](double column, double row) {
-        const int i = (static_cast<int>(column) + width) % width;
-        const float* p = panorama.at(i, std::clamp(static_cast<int>(row), 0, height - 1));
-        return glm::dvec3(p[0], p[1], p[2]);
-    };
-    return glm::mix(glm::mix(texel(left, top), texel(left + 1.0, top), x - left),
-                    glm::mix(texel(left, top + 1.0), texel(left + 1.0, top + 1.0), x - left),
-                    y - top);
+/// Half the arc of the circle of colatitude t that lies within an angle of an axis of colatitude
+/// alpha, by the half-angle formula of docs/derivations/rsrm.md. [0, pi]
+double halfArc(double t, double alpha, double angle) {
+    if (angle <= std::abs(t - alpha)) {
+        return 0.0;
+    }
+    if (angle >= std::min(t + alpha, 2.0 * kPi - t - alpha)) {
+        return kPi;
+    }
+    const double inside = std::sin(0.5 * (t - alpha + angle)) * std::sin(0.5 * (alpha - t + angle));
+    const double outside =
+        std::sin(0.5 * (alpha + t + angle)) * std::sin(0.5 * (alpha + t - angle));
+    return 2.0 * std::atan2(std::sqrt(std::max(inside, 0.0)), std::sqrt(std::max(outside, 0.0)));
 }
 
-/// Circles about an axis.
-struct Circles {
-    glm::dvec3 axis, across, along;
+/// A panorama's grid about an axis. A texel's cell lies between two colatitudes and two azimuths
+/// from the axis', the latter in columns within [-width / 2, width / 2 + 1).
+class PanoramaGrid {
+public:
+    PanoramaGrid(int width, int height, const glm::dvec3& axis)
+        : width_(width), height_(height), alpha_(std::atan2(std::hypot(axis.x, axis.z), axis.y)),
+          centre_(std::atan2(axis.x, -axis.z) * width / (2.0 * kPi) + 0.5 * width) {}
 
-    explicit Circles(const glm::dvec3& about) : axis(about) {
-        const glm::dvec3 other =
-            std::abs(about.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
-        across = glm::normalize(glm::cross(about, other));
-        along = glm::cross(about, across);
+    [[nodiscard]] double colatitude(double row) const { return kPi * row / height_; }
+    [[nodiscard]] double area(int row) const {
+        return ringArea(colatitude(row), colatitude(row + 1)) / width_;
     }
-    [[nodiscard]] glm::dvec3 at(double theta, double phi) const {
-        return std::cos(theta) * axis +
-               std::sin(theta) * (std::cos(phi) * across + std::sin(phi) * along);
+    /// The azimuth of a cell's left side, in columns.
+    [[nodiscard]] double left(int column) const {
+        const double from = column - centre_;
+        return from - width_ * std::floor(from / width_ + 0.5);
     }
+    /// The angle from the axis of a colatitude and an azimuth in columns.
+    [[nodiscard]] double angle(double t, double columns) const {
+        const double across = std::sin(0.5 * (t - alpha_));
+        const double around = std::sin(kPi * columns / width_);
+        const double h = across * across + std::sin(t) * std::sin(alpha_) * around * around;
+        return 2.0 * std::asin(std::sqrt(std::clamp(h, 0.0, 1.0)));
+    }
+
+    /// The share of the sphere that lies in a cell and within an angle of the axis: an integral
+    /// over colatitude, split where the circle of that angle enters and leaves the cell's sides and
+    /// where it turns back, with nodes dense at both ends of a piece, where its arc grows as a
+    /// square root.
+    [[nodiscard]] double within(double edge, int row, double left) const {
+        const double top = colatitude(row);
+        const double bottom = colatitude(row + 1);
+        std::array<double, 8> breaks{top, bottom, std::abs(alpha_ - edge),
+                                     std::min(alpha_ + edge, 2.0 * kPi - alpha_ - edge)};
+        for (std::size_t side = 0; side < 2; ++side) {
+            // cos edge = R cos(t - t0) along a meridian.
+            const double phi = (left + static_cast<double>(side)) * 2.0 * kPi / width_;
+            const double x = std::cos(alpha_);
+            const double y = std::sin(alpha_) * std::cos(phi);
+            const double t0 = std::atan2(y, x);
+            const double away = std::acos(
+                std::clamp(std::cos(edge) / std::max(std::hypot(x, y), 1e-300), -1.0, 1.0));
+            breaks[4 + 2 * side] = t0 + away;
+            breaks[5 + 2 * side] = t0 - away;
+        }
+        for (double& at : breaks) {
+            at = std::clamp(at, top, bottom);
+        }
+        std::sort(breaks.begin(), breaks.end());
+        double sum = 0.0;
+        for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+            sum += breaks[i + 1] > breaks[i] ? piece(edge, left, breaks[i], breaks[i + 1]) : 0.0;
+        }
+        return sum;
+    }
+
+private:
+    [[nodiscard]] double piece(double edge, double left, double from, double to) const {
+        static const core::GaussRule rule = core::gaussLegendre(10);
+        double sum = 0.0;
+        double weights = 0.0;
+        for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
+            const double t =
+                from + (to - from) * std::pow(std::sin(0.5 * kPi * rule.nodes[k]), 2.0);
+            const double weight = rule.weights[k] * std::sin(kPi * rule.nodes[k]) * std::sin(t);
+            const double arc = halfArc(t, alpha_, edge) * width_ / (2.0 * kPi);
+            const double near = std::min(left + 1.0, arc) - std::max(left, -arc);
+            const double behind = left + 1.0 - std::max(left, width_ - arc);
+            sum += weight * (std::max(near, 0.0) + std::max(behind, 0.0));
+            weights += weight;
+        }
+        return weights > 0.0 ? ringArea(from, to) * sum / weights / width_ : 0.0;
+    }
+
+    double width_, height_;
+    double alpha_;  ///< the axis' colatitude
+    double centre_; ///< its column
 };
 
-/// A circle's mean radiance and the mean absolute deviation of its luminance from it.
-struct CircleMean {
-    glm::dvec3 mean{0.0};
-    double deviation = 0.0;
-};
-
-CircleMean meanOf(const core::Image& panorama, const Circles& circles, double theta) {
-    // Two lookups a texel, sixteen where the circle is small.
-    const auto count = static_cast<std::size_t>(
-        std::max(16.0, std::ceil(4.0 * std::sin(theta) * panorama.height())));
-    std::vector<glm::dvec3> samples(count);
-    CircleMean circle;
-    for (std::size_t k = 0; k < count; ++k) {
-        const double phi = 2.0 * kPi * (static_cast<double>(k) + 0.5) / static_cast<double>(count);
-        samples[k] = lookup(panorama, circles.at(theta, phi));
-        circle.mean += samples[k];
+/// Shares the sphere out among texels and zones: visit(zone, texel, share).
+template <class Visit>
+void shareOut(const core::Image& panorama, const glm::dvec3& axis, const std::vector<double>& edges,
+              Visit&& visit) {
+    const PanoramaGrid grid(panorama.width(), panorama.height(), axis);
+    for (int row = 0; row < panorama.height(); ++row) {
+        const double t = grid.colatitude(row + 0.5);
+        const double area = grid.area(row);
+        // No point of a cell is farther from its middle than a way along its middle's meridian and
+        // one along a parallel, which is longest on the cell's side towards the equator.
+        const double reach = grid.colatitude(0.5) +
+                             grid.colatitude(0.5) * 2.0 * panorama.height() / panorama.width() *
+                                 std::min(std::sin(t) + grid.colatitude(0.5), 1.0);
+        for (int column = 0; column < panorama.width(); ++column) {
+            const double left = grid.left(column);
+            const double middle = grid.angle(t, left + 0.5);
+            const float* texel = panorama.at(column, row);
+            const auto first = std::upper_bound(edges.begin() + 1, edges.end() - 1, middle - reach);
+            const auto last = std::lower_bound(first, edges.end() - 1, middle + reach);
+            double before = 0.0;
+            for (auto edge = first; edge != last; ++edge) {
+                const double inside = std::clamp(grid.within(*edge, row, left), before, area);
+                visit(static_cast<std::size_t>(edge - edges.begin()) - 1, texel, inside - before);
+                before = inside;
+            }
+            visit(static_cast<std::size_t>(last - edges.begin()) - 1, texel, area - before);
+        }
     }
-    circle.mean /= static_cast<double>(count);
-    for (const glm::dvec3& sample : samples) {
-        circle.deviation += std::abs(luminance(sample) - luminance(circle.mean));
-    }
-    circle.deviation /= static_cast<double>(count);
-    return circle;
 }
 
 } // namespace
@@ -104,25 +170,23 @@ PanoramaZones zonalFromPanorama(const core::Image& panorama, const glm::dvec3& a
                                 const Zones& zones) {
     LODESTAR_EXPECT(!panorama.empty() && panorama.channels() == 3, "a panorama has three channels");
     const std::vector<double> edges = zoneEdges(zones);
-    const Circles circles(axis);
-    PanoramaZones result{{zones, {}}, 0.0};
-    double moved = 0.0;
+    PanoramaZones result{{zones, std::vector<glm::dvec3>(edges.size() - 1)}, 0.0};
+    std::vector<glm::dvec3>& means = result.radiance.means;
+    std::vector<double> areas(means.size());
+    shareOut(panorama, axis, edges, [&](std::size_t zone, const float* texel, double share) {
+        means[zone] += share * glm::dvec3(texel[0], texel[1], texel[2]);
+        areas[zone] += share;
+    });
     double whole = 0.0;
-    for (std::size_t j = 0; j + 1 < edges.size(); ++j) {
-        const double low = std::pow(std::sin(0.5 * edges[j]), 2.0);
-        const double high = std::pow(std::sin(0.5 * edges[j + 1]), 2.0);
-        const double rings =
-            std::max(1.0, std::ceil(2.0 * (edges[j + 1] - edges[j]) * panorama.height() / kPi));
-        glm::dvec3 sum(0.0);
-        for (double k = 0.5; k < rings; k += 1.0) {
-            const double theta = 2.0 * std::asin(std::sqrt(low + (high - low) * k / rings));
-            const CircleMean circle = meanOf(panorama, circles, theta);
-            sum += circle.mean;
-            moved += 0.5 * circle.deviation * (high - low) / rings;
-            whole += luminance(circle.mean) * (high - low) / rings;
-        }
-        result.radiance.means.push_back(sum / rings);
+    for (std::size_t j = 0; j < means.size(); ++j) {
+        whole += luminance(means[j]);
+        means[j] /= areas[j];
     }
+    double moved = 0.0;
+    shareOut(panorama, axis, edges, [&](std::size_t zone, const float* texel, double share) {
+        const glm::dvec3 radiance(texel[0], texel[1], texel[2]);
+        moved += 0.5 * share * std::abs(luminance(radiance) - luminance(means[zone]));
+    });
     result.residual = whole > 0.0 ? moved / whole : 0.0;
     return result;
 }

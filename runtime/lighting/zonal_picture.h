@@ -20,14 +20,15 @@ namespace lodestar::lighting {
 
 struct PanoramaZones {
     ZonalRadiance radiance;
-    /// Share of the luminance that would have to move along its circle about the axis for the
-    /// panorama to be radially symmetric: 0 if it is, towards 1 for a small lamp away from the
-    /// axis.
+    /// Share of the luminance that would have to move within its zone for the zone to be even: 0
+    /// for a radially symmetric panorama but for what it changes across a zone or a texel, towards
+    /// 1 for a small lamp away from the axis.
     double residual = 0.0;
 };
 
-/// Means of a lat-long panorama (cubeFromLatLong's orientation) over the zones about an axis: two
-/// bilinear lookups a texel along either direction, on circles of equal areas.
+/// Means of a lat-long panorama (cubeFromLatLong's orientation) over the zones about an axis. A
+/// texel holds one radiance over its cell, as a strip's does, and gives each zone the solid angle
+/// that lies within it, so that a texel's energy is kept whatever the axis.
 /// @param panorama linear radiance, 3 channels, repaired  @param axis unit
 [[nodiscard]] PanoramaZones zonalFromPanorama(const core::Image& panorama, const glm::dvec3& axis,
                                               const Zones& zones);

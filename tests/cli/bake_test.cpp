@@ -81,9 +81,19 @@ TEST(Bake, ASkyEqualsASumOfItsOwn) {
     const TemporaryFolder folder;
     const std::string out = folder.file("sky.exr");
     const RunResult run = runLodestar({"bake", document(folder), "-o", out, "--light", "sky",
-                                       "--exponents", "512,1,30", "--columns", "41"});
+                                       "--exponents", "512,1,30", "--columns", "41", "--errors"});
     ASSERT_EQ(run.status, 0) << run.err;
-    EXPECT_EQ(json::parse(run.out)["kind"], "sky");
+    const json answer = json::parse(run.out);
+    EXPECT_EQ(answer["kind"], "sky");
+    EXPECT_EQ(answer["rows"], 3);
+    EXPECT_EQ(answer["columns"], 41);
+    EXPECT_EQ(answer["bytes"], 3 * 41 * 16);
+    EXPECT_TRUE(answer["warnings"].empty()) << answer;
+    ASSERT_EQ(answer["errors"].size(), 3u);
+    for (const json& error : answer["errors"]) {
+        EXPECT_GT(error, 0.0);
+        EXPECT_LT(error, 0.0015);
+    }
     const core::Image map = readPicture(out);
     const std::vector<double> angles = lighting::columnAngles(lighting::RsrmColumns::Refined, 41);
     const lighting::Zones zones{lighting::ZoneSpacing::EqualHeight, 4096};
@@ -159,6 +169,55 @@ TEST(Bake, ThePublishedLayoutShowsItsRowSums) {
     EXPECT_GT(map.at(0, 1)[0], 1.5f) << "on a zone's centre";
 }
 
+TEST(Bake, TheErrorsShowWhatTheEncodingLoses) {
+    const TemporaryFolder folder;
+    const std::string lights = document(folder);
+    std::vector<double> errors;
+    for (const std::string encoding : {"float", "half", "unorm8"}) {
+        const RunResult run =
+            runLodestar({"bake", lights, "-o", folder.file("map.exr"), "--light", "sun", "--errors",
+                         "--exponents", "4,2048", "--encoding", encoding});
+        ASSERT_EQ(run.status, 0) << run.err;
+        errors.push_back(json::parse(run.out)["errors"][0]);
+    }
+    EXPECT_LT(errors[0], 1e-3);
+    // A root in halves, of eleven bits, is off by 2^-11 of itself at most, its square by twice
+    // that.
+    EXPECT_LT(errors[1], errors[0] + 0.001);
+    // Roots over that of the greatest, 8 at exponent 2048: a step of 1/255 at a root of sqrt(p /
+    // 8), p / 8 = 1 - cos^5 5 degrees = .019: half a step is off by .0285 of p.
+    EXPECT_GT(errors[2], 0.001);
+    EXPECT_LT(errors[2], errors[0] + 0.03);
+}
+
+// Radiance beyond halves, 65504, and a texel below 0.
+TEST(Bake, GreatRadianceAndBrokenTexels) {
+    const TemporaryFolder folder;
+    const std::string out = folder.file("map.exr");
+    for (const std::string layout : {"rsrm", "rsrm-published"}) {
+        const RunResult run =
+            runLodestar({"bake", constantStrip(folder, 1e6f), "-o", out, "--layout", layout,
+                         "--encoding", "half", "--exponents", "1"});
+        ASSERT_EQ(run.status, 0) << run.err;
+        const core::Image map = readPicture(out);
+        for (int column = 0; column < map.width(); ++column) {
+            // Halves, rounded once (a root's twice); the published weights' sum is off by 1e-3.
+            EXPECT_NEAR(map.at(column, 0)[0], 1e6f, 2e3f) << layout;
+        }
+    }
+    core::Image strip(1, 12, 3);
+    std::fill(strip.pixels().begin(), strip.pixels().end(), 1.0f);
+    strip.at(0, 5)[1] = -1.0f;
+    const std::string path = folder.file("broken.exr");
+    ASSERT_TRUE(io::writeImage(path, strip).ok());
+    const RunResult run = runLodestar({"bake", path, "-o", out});
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(json::parse(run.out)["warnings"].size(), 1u) << run.out;
+    EXPECT_NE(run.err.find("broken.exr: radiance negative"), std::string::npos) << run.err;
+    const core::Image map = readPicture(out);
+    EXPECT_GE(*std::min_element(map.pixels().begin(), map.pixels().end()), 0.0f);
+}
+
 /// The value of a string attribute in an OpenEXR header: name, "string", size, text.
 std::string attributeOf(const std::string& path, const std::string& name) {
     const auto bytes = io::readFile(path);
@@ -222,6 +281,8 @@ TEST(Bake, BadCallsSayOneLineAndTheirStatus) {
     core::Image odd(5, 3, 3);
     const std::string picture = folder.file("odd.exr");
     ASSERT_TRUE(io::writeImage(picture, odd).ok());
+    const std::string panorama = folder.file("panorama.exr");
+    ASSERT_TRUE(io::writeImage(panorama, core::Image(8, 4, 3)).ok());
     std::ofstream(folder.file("dark.lodestar.json")) << R"({"lodestar": 1})";
     struct Call {
         std::vector<std::string> arguments;
@@ -241,6 +302,9 @@ TEST(Bake, BadCallsSayOneLineAndTheirStatus) {
         {{"bake", strip, "-o", out, "--kind", "moon"}, 2, "moon"},
         {{"bake", strip, "-o", out, "--axis", "0,1,0"}, 2, "--axis"},
         {{"bake", strip, "-o", out, "--hour", "3"}, 2, "--hour"},
+        {{"bake", panorama, "-o", out, "--axis", "0,0,0"}, 2, "--axis"},
+        {{"bake", panorama, "-o", out, "--axis", "0,nan,1"}, 2, "--axis"},
+        {{"bake", panorama, "-o", out, "--axis", "1,0"}, 2, "--axis"},
         {{"bake", picture, "-o", out}, 3, "5 x 3"},
         {{"bake", folder.file("none.hdr"), "-o", out}, 3, "none.hdr"},
         {{"bake", folder.file("dark.lodestar.json"), "-o", out}, 3, "/lights"},
