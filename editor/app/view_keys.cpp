@@ -66,6 +66,7 @@ constexpr HelpLine kHelp[] = {
     {"Y, shift + Y", "play or pause the day, change its speed"},
     {"+, -", "brighter, darker by a quarter of a stop"},
     {"1 .. 5", "glossy light: tent, mip, mip-floor, bias:2, bias:2:vertex"},
+    {"1 .. 3", "under a lighting document alone: rsrm, rsrm-published, rsrm-published-columns"},
     {"shift + 1 .. 4", "diffuse light: irradiance, sh9, lowest-mip, bias:7"},
     {"P, F12", "picture of the view as a PNG in the current folder"},
     {"drop a file", "show a scene, or light it by a panorama"},

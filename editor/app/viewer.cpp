@@ -280,24 +280,29 @@ std::string Viewer::timeText() const {
            " on the GPU, " + size;
 }
 
+bool Viewer::onlyLights() const {
+    return environment_.empty() && !lights_.empty();
+}
+
 OverlayText Viewer::text() const {
     OverlayText text;
     text.help = help_;
     if (!textShown_ && !help_) {
         return text;
     }
-    const bool onlyLights = environment_.empty() && !lights_.empty();
-    text.lines = {nameOf(document_.path) +
-                      (document_.scene->name.empty() ? "" : ": " + document_.scene->name),
-                  onlyLights ? "light     the lighting document"
-                             : "light     " + nameOf(environmentName_),
-                  "glossy    " + lighting::estimatorName(settings_.specular),
-                  "diffuse   " + lighting::estimatorName(settings_.diffuse),
-                  "exposure  " + formatted("%+.2f EV", exposure_),
-                  animationText(),
-                  lights_.empty() ? "no hour: no lighting document" : hourText(),
-                  timeText(),
-                  "F1 help"};
+    text.lines = {
+        nameOf(document_.path) +
+            (document_.scene->name.empty() ? "" : ": " + document_.scene->name),
+        onlyLights() ? "light     the lighting document" : "light     " + nameOf(environmentName_),
+        "glossy    " +
+            (onlyLights() ? lightsEstimator_ : lighting::estimatorName(settings_.specular)),
+        "diffuse   " +
+            (onlyLights() ? lightsEstimator_ : lighting::estimatorName(settings_.diffuse)),
+        "exposure  " + formatted("%+.2f EV", exposure_),
+        animationText(),
+        lights_.empty() ? "no hour: no lighting document" : hourText(),
+        timeText(),
+        "F1 help"};
     text.message = message_;
     text.messageIsError = messageIsError_;
     return text;

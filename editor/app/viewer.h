@@ -81,6 +81,8 @@ private:
     void takeLight(DistantLight light);
     void showEnvironment();
     void takeLights(std::vector<lighting::DayLight> lights);
+    /// Whether a lighting document is all the light.
+    [[nodiscard]] bool onlyLights() const;
     void dropReplacingSkies();
     void moveHour(double hours);
     void playDay();

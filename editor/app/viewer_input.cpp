@@ -243,6 +243,15 @@ void Viewer::chooseScene(int step) {
 }
 
 void Viewer::chooseEstimator(const KeyBinding& binding) {
+    constexpr const char* kOfLights[] = {"rsrm", "rsrm-published", "rsrm-published-columns"};
+    if (onlyLights()) {
+        if (binding.choice < static_cast<int>(std::size(kOfLights))) {
+            lightsEstimator_ = kOfLights[binding.choice];
+            takeLights(std::move(lights_));
+            changed(true);
+        }
+        return;
+    }
     const bool glossy = binding.action == Action::ChooseSpecular;
     const auto choices =
         estimatorChoices(glossy ? lighting::Term::Glossy : lighting::Term::Diffuse);
