@@ -377,8 +377,8 @@ LodestarStatus glslText(const char* file, const LodestarDialect* dialect, char* 
     }
 }
 
-const void* getExtension(const char*) noexcept {
-    return nullptr;
+const void* getExtension(const char* id) noexcept {
+    return id != nullptr && std::strcmp(id, LODESTAR_EXTENSION_GL) == 0 ? glApi() : nullptr;
 }
 
 constexpr LodestarApi kApi{sizeof(LodestarApi),

@@ -16,6 +16,7 @@
 #include "core/result.h"
 #include "core/tally.h"
 #include "document/document.h"
+#include "gl_lights.h"
 #include "lighting/light_map.h"
 #include "lodestar/lodestar.h"
 #include "memory.h"
@@ -94,6 +95,7 @@ struct LodestarContext {
     std::vector<LodestarLight> order; ///< as made
     lodestar::plugin::Slots<lodestar::document::Document> documents;
     double hour = 15.0;
+    std::unique_ptr<lodestar::plugin::GlLights> gl; ///< while attached
 
     void log(std::int32_t number, const char* text) const {
         if (host.log != nullptr) {

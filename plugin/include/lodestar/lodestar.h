@@ -13,8 +13,8 @@
  *     every frame: api.set_hour(context, hour), then for each light light_state, and light_texels
  *     where `version` has changed; the shading text is api.glsl_text.
  *
- * What it does not do: it makes no GL call and no window, opens no file, starts no thread, loads no
- * scene and captures no probe. The host uploads the texels and draws.
+ * What it does not do: it makes no window, opens no file, starts no thread, loads no scene and
+ * captures no probe. It makes no GL call but in the extension "lodestar.gl". The host draws.
  *
  * Rules
  * - Every struct that a host fills begins with struct_size = sizeof of it: members that a host's
@@ -164,6 +164,37 @@ typedef struct LodestarDialect {
     uint32_t without_version_line; /* for hosts that paste it into a text of theirs */
 } LodestarDialect;
 enum { LODESTAR_PROFILE_CORE = 0, LODESTAR_PROFILE_COMPATIBILITY = 1, LODESTAR_PROFILE_ES = 2 };
+
+/* The extension "lodestar.gl": the texels as textures of the host's OpenGL context (3.3 or later,
+ * any profile). Its functions are [main] too, with the context current. Nothing of the host's state
+ * is changed: what uploads touch is queried and put back, and errors of the host's are not read. */
+#define LODESTAR_EXTENSION_GL "lodestar.gl"
+
+typedef struct LodestarGlTexture {
+    uint32_t struct_size;
+    uint32_t target; /* GL_TEXTURE_2D_ARRAY */
+    uint32_t name;   /* the library's: bind it, never delete it; 0 where there are no lights */
+    uint32_t width, height, layers;
+    uint32_t internal_format; /* GL_RGB9_E5, GL_RGBA32F */
+    uint32_t reserved;
+} LodestarGlTexture;
+
+typedef struct LodestarGlApi {
+    uint32_t struct_size; /* of what this library has */
+    uint32_t reserved;
+    /* Asks for the functions. LODESTAR_E_UNSUPPORTED: one is missing, or OpenGL is older than 3.3.
+     */
+    LodestarStatus (*attach)(LodestarContext*, void* (*get_procedure)(const char* name));
+    /* Deletes the textures; with alive 0 the context is lost and they are forgotten. To be called
+     * before context_destroy, which makes no GL call. */
+    LodestarStatus (*detach)(LodestarContext*, int32_t alive);
+    /* Uploads what has changed at the hour: a frame in which nothing did uploads nothing. Names
+     * stay until lights are made or end. */
+    LodestarStatus (*update)(LodestarContext*);
+    LodestarStatus (*texture)(LodestarContext*, int32_t which, LodestarGlTexture*);
+    /* The layer of a light in all three; LODESTAR_E_ARG: it has not been uploaded. */
+    LodestarStatus (*layer)(LodestarContext*, LodestarLight, uint32_t* layer);
+} LodestarGlApi;
 
 typedef struct LodestarApi {
     uint32_t struct_size; /* in: of the host's; out: of what was filled */

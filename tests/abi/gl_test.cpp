@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+//
+// The extension "lodestar.gl" in a host's context: the texels arrive, the host's state stays.
+#include <cstring>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+#include "lodestar/lodestar.h"
+#include "support/gl_fixture.h"
+
+namespace lodestar::testing {
+namespace {
+
+void* procedure(const char* name) {
+    return reinterpret_cast<void*>(eglGetProcAddress(name));
+}
+
+/// A sky of one key, and a sun that has set at night.
+struct TwoLights {
+    LodestarStop sky[2] = {{90, {0.1, 0.3, 0.6}, 0}, {-90, {0.8, 0.7, 0.5}, 0}};
+    LodestarStop sun[2] = {{0, {1, 0.9, 0.8}, 10}, {3, {1, 0.9, 0.8}, 10}};
+    LodestarLight skyLight = 0, sunLight = 0;
+
+    void make(const LodestarApi& api, LodestarContext* context) {
+        LodestarKey key{};
+        key.struct_size = sizeof key;
+        key.stops = sky;
+        key.stop_count = 2;
+        key.hour = 12.0;
+        key.tint[0] = key.tint[1] = key.tint[2] = 1.0;
+        LodestarLightDesc desc{};
+        desc.struct_size = sizeof desc;
+        desc.axis[1] = 1.0;
+        desc.key_count = 1;
+        desc.key_stride = sizeof key;
+        desc.keys = &key;
+        ASSERT_EQ(api.light_create(context, &desc, &skyLight), LODESTAR_OK);
+        key.stops = sun;
+        desc.kind = LODESTAR_SUN;
+        desc.has_path = 1;
+        desc.day_of_year = 81;
+        desc.north[2] = -1.0;
+        ASSERT_EQ(api.light_create(context, &desc, &sunLight), LODESTAR_OK);
+    }
+};
+
+/// All integers of the state that a host may rely on, by name.
+std::vector<std::pair<GLenum, std::vector<GLint>>> stateOf() {
+    constexpr GLenum kNames[] = {GL_CURRENT_PROGRAM,
+                                 GL_ACTIVE_TEXTURE,
+                                 GL_VERTEX_ARRAY_BINDING,
+                                 GL_ARRAY_BUFFER_BINDING,
+                                 GL_UNIFORM_BUFFER_BINDING,
+                                 GL_PIXEL_PACK_BUFFER_BINDING,
+                                 GL_PIXEL_UNPACK_BUFFER_BINDING,
+                                 GL_DRAW_FRAMEBUFFER_BINDING,
+                                 GL_READ_FRAMEBUFFER_BINDING,
+                                 GL_RENDERBUFFER_BINDING,
+                                 GL_VIEWPORT,
+                                 GL_SCISSOR_BOX,
+                                 GL_BLEND_SRC_RGB,
+                                 GL_BLEND_DST_RGB,
+                                 GL_BLEND_EQUATION_RGB,
+                                 GL_DEPTH_FUNC,
+                                 GL_DEPTH_WRITEMASK,
+                                 GL_STENCIL_FUNC,
+                                 GL_STENCIL_WRITEMASK,
+                                 GL_CULL_FACE_MODE,
+                                 GL_FRONT_FACE,
+                                 GL_POLYGON_MODE,
+                                 GL_COLOR_WRITEMASK,
+                                 GL_PACK_ALIGNMENT,
+                                 GL_PACK_ROW_LENGTH,
+                                 GL_PACK_SKIP_ROWS,
+                                 GL_UNPACK_ALIGNMENT,
+                                 GL_UNPACK_ROW_LENGTH,
+                                 GL_UNPACK_IMAGE_HEIGHT,
+                                 GL_UNPACK_SKIP_ROWS,
+                                 GL_UNPACK_SKIP_PIXELS,
+                                 GL_UNPACK_SKIP_IMAGES,
+                                 GL_UNPACK_SWAP_BYTES,
+                                 GL_UNPACK_LSB_FIRST,
+                                 GL_BLEND,
+                                 GL_CULL_FACE,
+                                 GL_DEPTH_TEST,
+                                 GL_SCISSOR_TEST,
+                                 GL_STENCIL_TEST,
+                                 GL_TEXTURE_CUBE_MAP_SEAMLESS,
+                                 GL_FRAMEBUFFER_SRGB,
+                                 GL_POLYGON_OFFSET_FILL,
+                                 GL_MULTISAMPLE,
+                                 GL_RASTERIZER_DISCARD,
+                                 GL_PRIMITIVE_RESTART,
+                                 GL_DITHER};
+    std::vector<std::pair<GLenum, std::vector<GLint>>> state;
+    for (const GLenum name : kNames) {
+        std::vector<GLint> values(4, -7);
+        glGetIntegerv(name, values.data());
+        state.emplace_back(name, values);
+    }
+    GLint active = 0;
+    glGetIntegerv(GL_ACTIVE_TEXTURE, &active);
+    for (GLenum unit = 0; unit < 16; ++unit) {
+        glActiveTexture(GL_TEXTURE0 + unit);
+        constexpr GLenum kBindings[] = {GL_TEXTURE_BINDING_2D, GL_TEXTURE_BINDING_CUBE_MAP,
+                                        GL_TEXTURE_BINDING_2D_ARRAY, GL_TEXTURE_BINDING_1D,
+                                        GL_SAMPLER_BINDING};
+        for (const GLenum name : kBindings) {
+            GLint value = -7;
+            glGetIntegerv(name, &value);
+            state.emplace_back(name, std::vector<GLint>{static_cast<GLint>(unit), value});
+        }
+    }
+    glActiveTexture(static_cast<GLenum>(active));
+    return state;
+}
+
+class AbiGl : public GlTest {
+protected:
+    void SetUp() override {
+        GlTest::SetUp();
+        api.struct_size = sizeof api;
+        ASSERT_EQ(lodestar_get_api(LODESTAR_ABI_VERSION, &api), LODESTAR_OK);
+        gl = static_cast<const LodestarGlApi*>(api.get_extension(LODESTAR_EXTENSION_GL));
+        ASSERT_NE(gl, nullptr);
+        EXPECT_EQ(api.get_extension("lodestar.vulkan"), nullptr);
+        ASSERT_EQ(api.context_create(nullptr, &context), LODESTAR_OK);
+    }
+    void TearDown() override {
+        EXPECT_EQ(api.context_destroy(context), LODESTAR_OK);
+        GlTest::TearDown();
+    }
+    [[nodiscard]] LodestarGlTexture texture(int which) const {
+        LodestarGlTexture texture{};
+        texture.struct_size = sizeof texture;
+        EXPECT_EQ(gl->texture(context, which, &texture), LODESTAR_OK);
+        return texture;
+    }
+    LodestarApi api{};
+    const LodestarGlApi* gl = nullptr;
+    LodestarContext* context = nullptr;
+    TwoLights lights;
+};
+
+TEST_F(AbiGl, TexelsArriveAndGo) {
+    lights.make(api, context);
+    EXPECT_EQ(gl->update(context), LODESTAR_E_ARG) << "not attached";
+    EXPECT_EQ(gl->attach(context, nullptr), LODESTAR_E_ARG);
+    EXPECT_EQ(gl->attach(context, [](const char*) -> void* { return nullptr; }),
+              LODESTAR_E_UNSUPPORTED);
+    ASSERT_EQ(gl->attach(context, procedure), LODESTAR_OK);
+    EXPECT_EQ(gl->attach(context, procedure), LODESTAR_E_ARG) << "twice";
+    std::uint32_t layer = 99;
+    EXPECT_EQ(gl->layer(context, lights.skyLight, &layer), LODESTAR_E_ARG);
+    ASSERT_EQ(api.set_hour(context, 12.0), LODESTAR_OK);
+    ASSERT_EQ(gl->update(context), LODESTAR_OK);
+    for (const LodestarLight light : {lights.skyLight, lights.sunLight}) {
+        ASSERT_EQ(gl->layer(context, light, &layer), LODESTAR_OK);
+        for (int which = 0; which < 3; ++which) {
+            const LodestarGlTexture made = texture(which);
+            ASSERT_EQ(made.layers, 2u);
+            std::size_t size = 0;
+            ASSERT_EQ(api.light_texels(context, light, which, nullptr, &size), LODESTAR_MORE);
+            std::vector<unsigned char> expected(size);
+            ASSERT_EQ(api.light_texels(context, light, which, expected.data(), &size), LODESTAR_OK);
+            std::vector<unsigned char> got(2 * size);
+            glBindTexture(made.target, made.name);
+            glPixelStorei(GL_PACK_ALIGNMENT, 1);
+            const bool shared = made.internal_format == GL_RGB9_E5;
+            glGetTexImage(made.target, 0, shared ? GL_RGB : GL_RGBA,
+                          shared ? GL_UNSIGNED_INT_5_9_9_9_REV : GL_FLOAT, got.data());
+            EXPECT_EQ(std::memcmp(got.data() + layer * size, expected.data(), size), 0) << which;
+        }
+    }
+    // At night the sun keeps its layer and is not asked for; names stay.
+    const LodestarGlTexture before = texture(LODESTAR_TEXELS_MAP);
+    ASSERT_EQ(api.set_hour(context, 1.0), LODESTAR_OK);
+    ASSERT_EQ(gl->update(context), LODESTAR_OK);
+    EXPECT_EQ(texture(LODESTAR_TEXELS_MAP).name, before.name);
+    ASSERT_EQ(gl->detach(context, 1), LODESTAR_OK);
+    EXPECT_EQ(glIsTexture(before.name), GL_FALSE);
+    EXPECT_EQ(gl->update(context), LODESTAR_E_ARG);
+    // A context that was lost: nothing is called.
+    ASSERT_EQ(gl->attach(context, procedure), LODESTAR_OK);
+    ASSERT_EQ(gl->update(context), LODESTAR_OK);
+    const LodestarGlTexture lost = texture(LODESTAR_TEXELS_MAP);
+    ASSERT_EQ(gl->detach(context, 0), LODESTAR_OK);
+    EXPECT_EQ(glIsTexture(lost.name), GL_TRUE);
+    glDeleteTextures(1, &lost.name);
+}
+
+// Whatever a host has set, it finds again; and what it has set does not change what is uploaded.
+TEST_F(AbiGl, TheHostsStateStays) {
+    ASSERT_EQ(gl->attach(context, procedure), LODESTAR_OK);
+    lights.make(api, context);
+    GLuint buffer = 0, array = 0, vertices = 0;
+    glGenBuffers(1, &buffer);
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, buffer);
+    glBufferData(GL_PIXEL_UNPACK_BUFFER, 1 << 20, nullptr, GL_STATIC_DRAW);
+    glGenTextures(1, &array);
+    glGenVertexArrays(1, &vertices);
+    std::mt19937 random(5u);
+    const auto one = [&](int most) {
+        return static_cast<GLint>(random() % static_cast<unsigned>(most));
+    };
+    for (int round = 0; round < 60; ++round) {
+        glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(one(16)));
+        glBindTexture(GL_TEXTURE_2D_ARRAY, one(2) != 0 ? array : 0);
+        glBindBuffer(GL_PIXEL_UNPACK_BUFFER, one(2) != 0 ? buffer : 0);
+        glBindVertexArray(one(2) != 0 ? vertices : 0);
+        glPixelStorei(GL_UNPACK_ALIGNMENT, 1 << one(4));
+        glPixelStorei(GL_UNPACK_ROW_LENGTH, one(3) * 300);
+        glPixelStorei(GL_UNPACK_IMAGE_HEIGHT, one(3) * 40);
+        glPixelStorei(GL_UNPACK_SKIP_ROWS, one(3));
+        glPixelStorei(GL_UNPACK_SKIP_PIXELS, one(3));
+        glPixelStorei(GL_UNPACK_SKIP_IMAGES, one(2));
+        glPixelStorei(GL_UNPACK_SWAP_BYTES, one(2));
+        one(2) != 0 ? glEnable(GL_BLEND) : glDisable(GL_BLEND);
+        one(2) != 0 ? glEnable(GL_RASTERIZER_DISCARD) : glDisable(GL_RASTERIZER_DISCARD);
+        glFrontFace(one(2) != 0 ? GL_CW : GL_CCW);
+        glViewport(one(9), one(9), 30, 20);
+        const auto before = stateOf();
+        // Every round something is uploaded, in some all is made anew.
+        if (round % 10 == 9) {
+            ASSERT_EQ(api.light_destroy(context, lights.skyLight), LODESTAR_OK);
+            ASSERT_EQ(api.light_destroy(context, lights.sunLight), LODESTAR_OK);
+            lights.make(api, context);
+        }
+        ASSERT_EQ(api.set_hour(context, 6.0 + 0.1 * round), LODESTAR_OK);
+        ASSERT_EQ(gl->update(context), LODESTAR_OK);
+        ASSERT_EQ(stateOf(), before) << "round " << round;
+    }
+    const LodestarGlTexture map = texture(LODESTAR_TEXELS_MAP);
+    std::size_t size = 0;
+    std::uint32_t layer = 0;
+    ASSERT_EQ(gl->layer(context, lights.skyLight, &layer), LODESTAR_OK);
+    ASSERT_EQ(api.light_texels(context, lights.skyLight, LODESTAR_TEXELS_MAP, nullptr, &size),
+              LODESTAR_MORE);
+    std::vector<unsigned char> expected(size), got(2 * size);
+    ASSERT_EQ(
+        api.light_texels(context, lights.skyLight, LODESTAR_TEXELS_MAP, expected.data(), &size),
+        LODESTAR_OK);
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+    glBindTexture(map.target, map.name);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTexImage(map.target, 0, GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV, got.data());
+    EXPECT_EQ(std::memcmp(got.data() + layer * size, expected.data(), size), 0);
+    ASSERT_EQ(gl->detach(context, 1), LODESTAR_OK);
+    glDeleteTextures(1, &array);
+    glDeleteBuffers(1, &buffer);
+    glDeleteVertexArrays(1, &vertices);
+}
+
+} // namespace
+} // namespace lodestar::testing
