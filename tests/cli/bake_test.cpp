@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <sstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -110,6 +111,51 @@ TEST(Bake, ASkyEqualsASumOfItsOwn) {
             }
             EXPECT_NEAR(static_cast<double>(map.at(column, row)[1]), sum, 0.0015 * 0.8)
                 << exponents[row] << " column " << column;
+        }
+    }
+}
+
+// The same rows by `lodestar sample`, of a document with that sky alone, between two of its hours.
+TEST(Bake, ARowIsWhatSampleAnswers) {
+    const TemporaryFolder folder;
+    const std::string lights = folder.file("sky.lodestar.json");
+    std::ofstream(lights) << R"({"lodestar": 1, "lights": [{"kind": "sky", "keys": [
+        {"hour": 6, "tint": [1, 0.5, 0.25], "gradient": {"stops": [
+            {"at": 90, "color": [0.1, 0.2, 0.4]}, {"at": -90, "color": [0.8, 0.6, 0.4]}]}},
+        {"hour": 12, "gradient": {"interpolation": "smooth", "stops": [
+            {"at": 90, "color": [0.2, 0.4, 0.8]}, {"at": 0, "color": [1, 1, 1]},
+            {"at": 0, "color": [0.2, 0.2, 0.2]}]}}]}]})";
+    const std::string out = folder.file("sky.exr");
+    const RunResult bake = runLodestar(
+        {"bake", lights, "-o", out, "--hour", "10", "--exponents", "1,40,700", "--columns", "7"});
+    ASSERT_EQ(bake.status, 0) << bake.err;
+    const core::Image map = readPicture(out);
+    const std::vector<double> angles = lighting::columnAngles(lighting::RsrmColumns::Refined, 7);
+    const std::string batch = folder.file("batch");
+    {
+        std::ofstream lines(batch);
+        for (const double exponent : {1.0, 40.0, 700.0}) {
+            for (const double angle : angles) {
+                lines << json{{"exponent", exponent},
+                              {"direction", {std::sin(angle), std::cos(angle), 0.0}}}
+                      << "\n";
+            }
+        }
+    }
+    const RunResult sample = runLodestar({"sample", "--batch", batch, "--lighting", lights,
+                                          "--hour", "10", "--estimator", "reference"});
+    ASSERT_EQ(sample.status, 0) << sample.err;
+    std::istringstream answers(sample.out);
+    std::string line;
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 7; ++column) {
+            ASSERT_TRUE(std::getline(answers, line));
+            const json answer = json::parse(line);
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_NEAR(static_cast<double>(map.at(column, row)[c]),
+                            answer["radiance"][static_cast<std::size_t>(c)].get<double>(), 0.0015)
+                    << "row " << row << ", column " << column;
+            }
         }
     }
 }

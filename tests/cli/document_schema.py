@@ -39,6 +39,7 @@ FULL = {
     "materials": {"gold": {"exponent": 64, "f0": [1, 0.8, 0.3]},
                   "#2": {"exponent": "mirror", "diffuse": [0, 0, 0], "specular": "mip",
                          "tolerance": 0.1}},
+    "probes": [{"name": "hall", "position": [0, 1, 0], "update": {"every": 4}}],
 }
 
 VALUES = [None, True, -1, 0, 0.5, 2, 91, 181, 367, 1e7, 2e7, 1e300, "", "mirror", "linear", "sun", "#1",
