@@ -70,7 +70,8 @@ public:
         std::array<double, 8> breaks{top, bottom, std::abs(alpha_ - edge),
                                      std::min(alpha_ + edge, 2.0 * kPi - alpha_ - edge)};
         for (std::size_t side = 0; side < 2; ++side) {
-            // cos edge = R cos(t - t0) along a meridian.
+            // cos edge = R cos(t - t0) along a meridian; of the roots the two that can lie in [0,
+            // pi].
             const double phi = (left + static_cast<double>(side)) * 2.0 * kPi / width_;
             const double x = std::cos(alpha_);
             const double y = std::sin(alpha_) * std::cos(phi);
@@ -78,7 +79,7 @@ public:
             const double away = std::acos(
                 std::clamp(std::cos(edge) / std::max(std::hypot(x, y), 1e-300), -1.0, 1.0));
             breaks[4 + 2 * side] = t0 + away;
-            breaks[5 + 2 * side] = t0 - away;
+            breaks[5 + 2 * side] = t0 - away + (t0 < 0.0 ? 2.0 * kPi : 0.0);
         }
         for (double& at : breaks) {
             at = std::clamp(at, top, bottom);
