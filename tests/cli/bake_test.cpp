@@ -27,14 +27,14 @@ using nlohmann::json;
 std::string constantStrip(const TemporaryFolder& folder, float value) {
     core::Image strip(1, 12, 3);
     std::fill(strip.pixels().begin(), strip.pixels().end(), value);
-    const std::string path = folder.file("constant.exr");
+    std::string path = folder.file("constant.exr");
     EXPECT_TRUE(io::writeImage(path, strip).ok());
     return path;
 }
 
 /// A sky of two colours and a sun of 5 degrees, at fixed axes.
 std::string document(const TemporaryFolder& folder) {
-    const std::string path = folder.file("two.lodestar.json");
+    std::string path = folder.file("two.lodestar.json");
     std::ofstream(path) << R"({"lodestar": 1, "lights": [
         {"name": "sky", "kind": "sky", "keys": [{"hour": 12, "gradient": {"stops": [
             {"at": 90, "color": [0.2, 0.4, 0.8]}, {"at": 0, "color": [1, 0.8, 0.6]},

@@ -34,7 +34,8 @@ core::Image panoramaOf(const RadianceProfile& profile, const glm::dvec3& axis, i
         for (int x = 0; x < 2 * height; ++x) {
             glm::dvec3 sum(0.0);
             for (int i = 0; i < kParts * kParts; ++i) {
-                const double z = top + (bottom - top) * (i / kParts + 0.5) / kParts;
+                const int line = i / kParts;
+                const double z = top + (bottom - top) * (line + 0.5) / kParts;
                 const double column = x + (i % kParts + 0.5) / kParts;
                 const double phi = std::numbers::pi * (column / height - 1.0);
                 const double r = std::sqrt(1.0 - z * z);

@@ -47,7 +47,8 @@ std::vector<double> countedShares(int height, int x, int y, const glm::dvec3& ax
     const double top = std::cos(kPi * y / height);
     const double bottom = std::cos(kPi * (y + 1) / height);
     for (int i = 0; i < parts * parts; ++i) {
-        const double z = top + (bottom - top) * (i / parts + 0.5) / parts;
+        const int line = i / parts;
+        const double z = top + (bottom - top) * (line + 0.5) / parts;
         const double phi = kPi * (x + (i % parts + 0.5) / parts) / height - kPi;
         const double r = std::sqrt(1.0 - z * z);
         const glm::dvec3 d(r * std::sin(phi), z, -r * std::cos(phi));
