@@ -58,14 +58,15 @@ std::string program(const std::string& name) {
     return own.substr(0, own.rfind('/') + 1) + name;
 }
 
-constexpr const char* kView = " --size 240x120 --eye 0,1,7 --target 0,0,0 --fov 45";
+constexpr const char* kView = " --eye 0,1,7 --target 0,0,0 --fov 45";
 
 core::Image drawn(const std::string& command, const TemporaryFolder& folder,
-                  const std::string& scene, const std::string& lighting, const std::string& hour) {
+                  const std::string& scene, const std::string& lighting, const std::string& hour,
+                  const char* view = kView) {
     const std::string out = (folder / "drawn.png").string();
     std::filesystem::remove(out); // no picture of before is read
     const std::string whole = command + " " + scene + " --lighting " + lighting + " -o " + out +
-                              kView + " --hour " + hour;
+                              " --size 240x120" + view + " --hour " + hour;
     EXPECT_EQ(std::system(whole.c_str()), 0) << whole;
     return readPicture(out);
 }
@@ -106,6 +107,18 @@ TEST(OsgHost, ADocumentLightsItAsItLightsUs) {
     // What must fail the gate: another hour, another place.
     EXPECT_FALSE(passes(byHost(folder, moved, lighting, "9.5"), own, "half an hour later"));
     EXPECT_FALSE(passes(byHost(folder, scene, lighting, "9"), own, "not moved"));
+}
+
+TEST(OsgHost, TheHostsAreCalledAlike) {
+    const TemporaryFolder folder;
+    const std::string lighting = day(folder);
+    const std::string scene = spheres(folder, 2.2);
+    // Without a view each shows the whole scene, from the same place.
+    const core::Image builtin =
+        drawn(program("lodestar-host-builtin"), folder, scene, lighting, "9", "");
+    EXPECT_TRUE(passes(drawn(program("lodestar-host-osg"), folder, scene, lighting, "9", ""),
+                       builtin, "the scene framed"));
+    EXPECT_FALSE(passes(byHost(folder, scene, lighting, "9"), builtin, "from elsewhere"));
 }
 
 TEST(OsgHost, ABrokenDocumentIsSaid) {

@@ -22,7 +22,7 @@ editor/ui: editor/model runtime/plan runtime/gl
 editor/app: runtime/scene editor/ui runtime/platform
 plugin: runtime/document runtime/plan runtime/gl
 plugin/hosts: plugin runtime/io
-samples: runtime/scene runtime/platform plugin
+samples: runtime/scene runtime/platform plugin plugin/hosts
 tests: editor/app runtime/scene runtime/platform plugin samples
 '
 # Libraries by other people: the first word is a pattern of the angle include, then the folders that
@@ -75,6 +75,7 @@ function target_of(include, from,    p, n) {
     if (p[1] == "..") return ".."
     if (p[1] == "lodestar") return include == "lodestar/lodestar.h" ? "plugin" : "shaders/lodestar"
     if (p[1] == "host") return "shaders/host"
+    if (p[1] == "hosts") return "plugin/hosts"
     if (("runtime/" p[1]) in uses) return "runtime/" p[1]
     if (("editor/" p[1]) in uses) return "editor/" p[1]
     if (from == "tests" || from == "samples") return from

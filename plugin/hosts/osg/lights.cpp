@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lights.h"
+#include "hosts/osg/lights.h"
 
 #include <algorithm>
 #include <cstring>

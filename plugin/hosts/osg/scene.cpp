@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "scene.h"
+#include "hosts/osg/scene.h"
+
+#include <string>
 
 #include <osg/CullFace>
 #include <osg/Geode>
@@ -10,6 +12,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "hosts/osg/lights.h"
 #include "lodestar/lobes.glsl"
 
 namespace lodestar::osghost {
@@ -90,6 +93,20 @@ osg::ref_ptr<osg::Node> nodeOf(const io::GltfFile& file, int index) {
     return transform;
 }
 
+std::string textOf(const LodestarApi& api, const char* file) {
+    LodestarDialect dialect{};
+    dialect.struct_size = sizeof dialect;
+    dialect.version = 330;
+    dialect.profile = LODESTAR_PROFILE_COMPATIBILITY;
+    dialect.without_version_line = 1;
+    std::size_t size = 0;
+    api.glsl_text(file, &dialect, nullptr, &size);
+    std::string text(size, '\0');
+    api.glsl_text(file, &dialect, text.data(), &size);
+    text.resize(size > 0 ? size - 1 : 0);
+    return text;
+}
+
 } // namespace
 
 osg::ref_ptr<osg::Group> sceneOf(const io::GltfFile& file) {
@@ -100,6 +117,48 @@ osg::ref_ptr<osg::Group> sceneOf(const io::GltfFile& file) {
         }
     }
     return root;
+}
+
+osg::ref_ptr<osg::Program> programOf(const LodestarApi& api) {
+    const std::string version = "#version 330 compatibility\n";
+    const std::string vertex = version + R"(
+uniform mat4 osg_ViewMatrixInverse;
+out vec3 vPosition;
+out vec3 vNormal;
+void main() {
+    vPosition = vec3(osg_ViewMatrixInverse * (gl_ModelViewMatrix * gl_Vertex));
+    vNormal = mat3(osg_ViewMatrixInverse) * (gl_NormalMatrix * gl_Normal);
+    gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
+})";
+    // The environment's own hooks are not asked for here.
+    const std::string fragment = version + textOf(api, "lodestar/environment.glsl") +
+                                 textOf(api, "lodestar/rsrm.glsl") +
+                                 textOf(api, "lodestar/display.glsl") + R"(
+vec4 lodestar_host_cube(int slot, vec3 direction, float level) { return vec4(0.0); }
+vec3 lodestar_host_irradiance(int slot, vec3 normal) { return vec3(0.0); }
+)" + Lights::shaderText() + R"(
+uniform mat4 osg_ViewMatrixInverse;
+uniform vec4 material_diffuse;
+uniform vec4 material_f0;
+in vec3 vPosition;
+in vec3 vNormal;
+void main() {
+    LodestarSurface here;
+    here.view = normalize(osg_ViewMatrixInverse[3].xyz - vPosition);
+    here.normal = normalize(vNormal) * (gl_FrontFacing ? 1.0 : -1.0);
+    here.diffuse = material_diffuse.rgb;
+    here.f0 = material_f0.rgb;
+    here.exponent = material_f0.w;
+    here.occlusion = 1.0;
+    vec3 radiance = lodestar_lights(here);
+    gl_FragColor = vec4(lodestar_srgbFromLinear(lodestar_filmic(radiance.r)),
+                        lodestar_srgbFromLinear(lodestar_filmic(radiance.g)),
+                        lodestar_srgbFromLinear(lodestar_filmic(radiance.b)), 1.0);
+})";
+    osg::ref_ptr<osg::Program> program = new osg::Program;
+    program->addShader(new osg::Shader(osg::Shader::VERTEX, vertex));
+    program->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragment));
+    return program;
 }
 
 } // namespace lodestar::osghost

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+//
+// lodestar-host-builtin: the built-in renderer as a host among others, whose pictures are compared
+// with theirs: a scene under a lighting document, its shadows left to nobody.
+#include "call.h"
+#include "io/document_file.h"
+#include "lodestar/display.glsl"
+#include "platform/headless_context.h"
+#include "scene/renderer.h"
+
+namespace lodestar::samples {
+namespace {
+
+constexpr const char* kName = "lodestar-host-builtin";
+
+core::Result<core::Image> draw(const HostCall& call, const HostScene& loaded) {
+    core::Tally warnings;
+    const auto document = io::loadDocument(call.lighting, warnings);
+    if (!document) {
+        return document.error();
+    }
+    auto lights = document::dayLights(*document, warnings);
+    if (!lights) {
+        return core::inFile(lights.error(), call.lighting);
+    }
+    for (lighting::DayLight& light : *lights) {
+        light.visibility = false;
+    }
+    auto context = platform::HeadlessContext::create();
+    if (!context) {
+        return context.error();
+    }
+    auto device = gl::Device::create();
+    if (!device) {
+        return device.error();
+    }
+    const scene::Scene scene = scene::buildScene(loaded.file, loaded.file.defaultScene);
+    auto renderer = scene::Renderer::make(**device, scene);
+    if (!renderer) {
+        return renderer.error();
+    }
+    (*renderer)->setLights(std::move(*lights));
+    scene::RenderSettings settings;
+    settings.width = call.width;
+    settings.height = call.height;
+    settings.hour = call.hour;
+    settings.backdrop = false;
+    auto frame = (*renderer)->render(loaded.view, settings);
+    if (!frame) {
+        return frame.error();
+    }
+    for (std::size_t i = 0; i < frame->radiance.pixels().size(); ++i) {
+        float& value = frame->radiance.pixels()[i];
+        value =
+            i % 4 == 3 ? value : shader::lodestar_srgbFromLinear(shader::lodestar_filmic(value));
+    }
+    return std::move(frame->radiance);
+}
+
+int run(const HostCall& call) {
+    const auto loaded = loadHostScene(call);
+    if (!loaded) {
+        return hostFails(kName, loaded.error().message(), static_cast<int>(loaded.error().code));
+    }
+    const auto picture = draw(call, *loaded);
+    if (!picture) {
+        return hostFails(kName, picture.error().message(), static_cast<int>(picture.error().code));
+    }
+    const auto written = io::writeImage(call.output, *picture);
+    return written ? 0 : hostFails(kName, written.error().message(), 5);
+}
+
+} // namespace
+} // namespace lodestar::samples
+
+int main(int argc, char** argv) {
+    const auto call = lodestar::samples::parseHostCall(argc, argv);
+    return call ? lodestar::samples::run(*call)
+                : lodestar::samples::explainHost(lodestar::samples::kName, argc, argv);
+}
