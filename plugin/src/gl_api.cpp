@@ -77,7 +77,18 @@ LodestarStatus layer(LodestarContext* context, LodestarLight light, uint32_t* la
     });
 }
 
-constexpr LodestarGlApi kApi{sizeof(LodestarGlApi), 0, attach, detach, update, texture, layer};
+LodestarStatus setHostResets(LodestarContext* context, int32_t resets) noexcept {
+    return entered(context, [&]() -> LodestarStatus {
+        if (!context->gl) {
+            return notAttached(*context);
+        }
+        context->gl->setHostResets(resets != 0);
+        return LODESTAR_OK;
+    });
+}
+
+constexpr LodestarGlApi kApi{sizeof(LodestarGlApi), 0, attach, detach, update, texture, layer,
+                             setHostResets};
 
 } // namespace
 

@@ -2,6 +2,7 @@
 #include "gl_lights.h"
 
 #include <array>
+#include <optional>
 
 #include "context.h"
 
@@ -21,35 +22,55 @@ std::array<Kind, kTexelKinds> kinds() {
              {GL_RGBA32F, GL_RGBA, GL_FLOAT, lighting::kGradientColumns, 1}}};
 }
 
-/// Saves what uploads touch, sets what they need, and puts back what was.
+/// Saves what uploads touch, sets what they need, and puts back what was. For a host that resets
+/// its own state nothing is asked: OpenGL's initial values are left.
 class UploadGuard {
 public:
-    explicit UploadGuard(const GlFunctions& gl) : gl_(gl) {
-        gl_.getIntegerv(GL_TEXTURE_BINDING_2D_ARRAY, &texture_);
-        gl_.getIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &buffer_);
-        for (std::size_t i = 0; i < kStores.size(); ++i) {
-            gl_.getIntegerv(kStores[i], &stored_[i]);
-            gl_.pixelStorei(kStores[i], kStores[i] == GL_UNPACK_ALIGNMENT ? 1 : 0);
+    UploadGuard(const GlFunctions& gl, bool hostResets) : gl_(gl) {
+        if (!hostResets) {
+            gl_.getIntegerv(GL_TEXTURE_BINDING_2D_ARRAY, &texture_);
+            gl_.getIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &buffer_);
+            for (Store& store : stores_) {
+                gl_.getIntegerv(store.name, &store.value);
+            }
+        }
+        for (const Store& store : stores_) {
+            gl_.pixelStorei(store.name, store.name == GL_UNPACK_ALIGNMENT ? 1 : 0);
         }
         gl_.bindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
     }
     UploadGuard(const UploadGuard&) = delete;
     UploadGuard& operator=(const UploadGuard&) = delete;
     ~UploadGuard() {
-        for (std::size_t i = 0; i < kStores.size(); ++i) {
-            gl_.pixelStorei(kStores[i], stored_[i]);
+        for (const Store& store : stores_) {
+            gl_.pixelStorei(store.name, store.value);
         }
         gl_.bindBuffer(GL_PIXEL_UNPACK_BUFFER, static_cast<GLuint>(buffer_));
         gl_.bindTexture(GL_TEXTURE_2D_ARRAY, static_cast<GLuint>(texture_));
     }
+    /// A texture that is about to be deleted: its name cannot be bound again, so 0 will be, as
+    /// OpenGL itself does.
+    void forget(GLuint texture) {
+        if (static_cast<GLuint>(texture_) == texture) {
+            texture_ = 0;
+        }
+    }
 
 private:
-    static constexpr std::array<GLenum, 8> kStores = {
-        GL_UNPACK_ALIGNMENT,   GL_UNPACK_ROW_LENGTH,  GL_UNPACK_IMAGE_HEIGHT, GL_UNPACK_SKIP_ROWS,
-        GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_IMAGES, GL_UNPACK_SWAP_BYTES,   GL_UNPACK_LSB_FIRST};
+    struct Store {
+        GLenum name;
+        GLint value; ///< the host's; at first OpenGL's
+    };
     const GlFunctions& gl_;
     GLint texture_ = 0, buffer_ = 0;
-    std::array<GLint, kStores.size()> stored_{};
+    std::array<Store, 8> stores_ = {{{GL_UNPACK_ALIGNMENT, 4},
+                                     {GL_UNPACK_ROW_LENGTH, 0},
+                                     {GL_UNPACK_IMAGE_HEIGHT, 0},
+                                     {GL_UNPACK_SKIP_ROWS, 0},
+                                     {GL_UNPACK_SKIP_PIXELS, 0},
+                                     {GL_UNPACK_SKIP_IMAGES, 0},
+                                     {GL_UNPACK_SWAP_BYTES, 0},
+                                     {GL_UNPACK_LSB_FIRST, 0}}};
 };
 
 std::vector<glm::vec4> withAlpha(const std::vector<glm::vec3>& line) {
@@ -117,8 +138,12 @@ void GlLights::update(LodestarContext& context) {
     const bool same = wanted.size() == layers_.size() &&
                       std::equal(wanted.begin(), wanted.end(), layers_.begin(),
                                  [](const Layer& a, const Layer& b) { return a.light == b.light; });
-    const UploadGuard guard(gl_);
+    std::optional<UploadGuard> guard; // a frame in which nothing changed makes no GL call
     if (!same) {
+        guard.emplace(gl_, hostResets_);
+        for (const GLuint name : names_) {
+            guard->forget(name);
+        }
         allocate(wanted.size());
         layers_ = std::move(wanted);
     }
@@ -128,6 +153,9 @@ void GlLights::update(LodestarContext& context) {
             continue;
         }
         const lighting::LightMap::Blend& blend = texelsOf(light);
+        if (!guard) {
+            guard.emplace(gl_, hostResets_);
+        }
         upload(LODESTAR_TEXELS_MAP, i, blend.texels.bytes.data());
         upload(LODESTAR_TEXELS_LAMBERT, i, withAlpha(blend.texels.lambert).data());
         upload(LODESTAR_TEXELS_GRADIENT, i, withAlpha(blend.gradient).data());

@@ -38,6 +38,8 @@ public:
     GlLights(const GlLights&) = delete;
     GlLights& operator=(const GlLights&) = delete;
 
+    /// Whether the host resets its state after `update`: then nothing of it is queried.
+    void setHostResets(bool resets) { hostResets_ = resets; }
     /// Uploads what has changed at the context's hour.
     void update(LodestarContext& context);
     /// Deletes the textures; the context they are of is current.
@@ -55,6 +57,7 @@ private:
     void upload(int which, std::size_t layer, const void* texels);
 
     GlFunctions gl_;
+    bool hostResets_ = false;
     GLuint names_[kTexelKinds] = {};
     std::vector<Layer> layers_;
 };

@@ -19,6 +19,39 @@ void* procedure(const char* name) {
     return reinterpret_cast<void*>(eglGetProcAddress(name));
 }
 
+/// Calls that the library made, by kind.
+struct Calls {
+    int queries = 0, changes = 0, uploads = 0;
+};
+Calls calls;
+
+/// As procedure, with the calls counted.
+void* countedProcedure(const char* name) {
+    const auto as = [](auto* function) { return reinterpret_cast<void*>(function); };
+    const std::string wanted(name);
+    if (wanted == "glGetIntegerv") {
+        return as(+[](GLenum what, GLint* value) { ++calls.queries, glGetIntegerv(what, value); });
+    }
+    if (wanted == "glBindTexture") {
+        return as(+[](GLenum to, GLuint texture) { ++calls.changes, glBindTexture(to, texture); });
+    }
+    if (wanted == "glBindBuffer") {
+        return as(+[](GLenum to, GLuint buffer) { ++calls.changes, glBindBuffer(to, buffer); });
+    }
+    if (wanted == "glPixelStorei") {
+        return as(+[](GLenum what, GLint value) { ++calls.changes, glPixelStorei(what, value); });
+    }
+    if (wanted == "glTexSubImage3D") {
+        return as(+[](GLenum to, GLint level, GLint x, GLint y, GLint z, GLsizei width,
+                      GLsizei height, GLsizei depth, GLenum format, GLenum type,
+                      const void* texels) {
+            ++calls.uploads;
+            glTexSubImage3D(to, level, x, y, z, width, height, depth, format, type, texels);
+        });
+    }
+    return procedure(name);
+}
+
 /// A sky of one key, and a sun that has set at night.
 struct TwoLights {
     LodestarStop sky[2] = {{90, {0.1, 0.3, 0.6}, 0}, {-90, {0.8, 0.7, 0.5}, 0}};
@@ -253,6 +286,79 @@ TEST_F(AbiGl, TheHostsStateStays) {
     glDeleteTextures(1, &array);
     glDeleteBuffers(1, &buffer);
     glDeleteVertexArrays(1, &vertices);
+}
+
+TEST_F(AbiGl, ASteadyFrameMakesNoCall) {
+    ASSERT_EQ(gl->attach(context, countedProcedure), LODESTAR_OK);
+    lights.make(api, context);
+    ASSERT_EQ(api.set_hour(context, 12.0), LODESTAR_OK);
+    calls = {};
+    ASSERT_EQ(gl->update(context), LODESTAR_OK);
+    EXPECT_EQ(calls.uploads, 6) << "three textures of two lights";
+    EXPECT_EQ(calls.queries, 10) << "two bindings and eight ways to unpack";
+    calls = {};
+    for (int frame = 0; frame < 10; ++frame) { // the sun moves, its texels do not change
+        ASSERT_EQ(api.set_hour(context, 12.0 + 0.01 * frame), LODESTAR_OK);
+        ASSERT_EQ(gl->update(context), LODESTAR_OK);
+    }
+    EXPECT_EQ(calls.uploads + calls.queries + calls.changes, 0);
+    ASSERT_EQ(gl->detach(context, 1), LODESTAR_OK);
+}
+
+TEST_F(AbiGl, AHostThatResetsIsAskedNothing) {
+    EXPECT_EQ(gl->set_host_resets(context, 1), LODESTAR_E_ARG) << "not attached";
+    ASSERT_EQ(gl->attach(context, countedProcedure), LODESTAR_OK);
+    ASSERT_EQ(gl->set_host_resets(context, 1), LODESTAR_OK);
+    lights.make(api, context);
+    ASSERT_EQ(api.set_hour(context, 12.0), LODESTAR_OK);
+    const auto initial = stateOf();
+    GLuint array = 0, buffer = 0;
+    glGenTextures(1, &array);
+    glGenBuffers(1, &buffer);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, array);
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, buffer);
+    constexpr GLenum kLengths[] = {GL_UNPACK_ROW_LENGTH, GL_UNPACK_IMAGE_HEIGHT,
+                                   GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS,
+                                   GL_UNPACK_SKIP_IMAGES};
+    for (const GLenum store : kLengths) {
+        glPixelStorei(store, 3);
+    }
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 8);
+    glPixelStorei(GL_UNPACK_SWAP_BYTES, 1);
+    glPixelStorei(GL_UNPACK_LSB_FIRST, 1);
+    calls = {};
+    ASSERT_EQ(gl->update(context), LODESTAR_OK);
+    EXPECT_EQ(calls.uploads, 6);
+    EXPECT_EQ(calls.queries, 0);
+    EXPECT_EQ(stateOf(), initial) << "what the header says is left";
+    // Without the mode the state is the host's again.
+    ASSERT_EQ(gl->set_host_resets(context, 0), LODESTAR_OK);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, array);
+    ASSERT_EQ(api.light_destroy(context, lights.sunLight), LODESTAR_OK);
+    const auto before = stateOf();
+    ASSERT_EQ(gl->update(context), LODESTAR_OK);
+    EXPECT_EQ(stateOf(), before);
+    ASSERT_EQ(gl->detach(context, 1), LODESTAR_OK);
+    glDeleteTextures(1, &array);
+    glDeleteBuffers(1, &buffer);
+}
+
+// The host has a texture of the library's bound while that is made anew: the name that was queried
+// is of nothing by then.
+TEST_F(AbiGl, AnEndedTextureIsNotBoundAgain) {
+    ASSERT_EQ(gl->attach(context, procedure), LODESTAR_OK);
+    lights.make(api, context);
+    ASSERT_EQ(gl->update(context), LODESTAR_OK);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, texture(LODESTAR_TEXELS_LAMBERT).name);
+    ASSERT_EQ(api.light_destroy(context, lights.skyLight), LODESTAR_OK);
+    ASSERT_EQ(api.light_destroy(context, lights.sunLight), LODESTAR_OK);
+    ASSERT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+    ASSERT_EQ(gl->update(context), LODESTAR_OK); // no lights: the textures end, none is made
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+    GLint bound = -1;
+    glGetIntegerv(GL_TEXTURE_BINDING_2D_ARRAY, &bound);
+    EXPECT_EQ(bound, 0);
+    ASSERT_EQ(gl->detach(context, 1), LODESTAR_OK);
 }
 
 } // namespace

@@ -167,7 +167,8 @@ enum { LODESTAR_PROFILE_CORE = 0, LODESTAR_PROFILE_COMPATIBILITY = 1, LODESTAR_P
 
 /* The extension "lodestar.gl": the texels as textures of the host's OpenGL context (3.3 or later,
  * any profile). Its functions are [main] too, with the context current. Nothing of the host's state
- * is changed: what uploads touch is queried and put back, and errors of the host's are not read. */
+ * is changed: what uploads touch is queried and put back, and errors of the host's are not read.
+ * Where a texture of the library's ends, what it was bound to has 0, as OpenGL has it. */
 #define LODESTAR_EXTENSION_GL "lodestar.gl"
 
 typedef struct LodestarGlTexture {
@@ -188,12 +189,16 @@ typedef struct LodestarGlApi {
     /* Deletes the textures; with alive 0 the context is lost and they are forgotten. To be called
      * before context_destroy, which makes no GL call. */
     LodestarStatus (*detach)(LodestarContext*, int32_t alive);
-    /* Uploads what has changed at the hour: a frame in which nothing did uploads nothing. Names
+    /* Uploads what has changed at the hour: a frame in which nothing did makes no GL call. Names
      * stay until lights are made or end. */
     LodestarStatus (*update)(LodestarContext*);
     LodestarStatus (*texture)(LodestarContext*, int32_t which, LodestarGlTexture*);
     /* The layer of a light in all three; LODESTAR_E_ARG: it has not been uploaded. */
     LodestarStatus (*layer)(LodestarContext*, LodestarLight, uint32_t* layer);
+    /* With resets 1 `update` queries nothing of the host's state, which the host sets anew: where
+     * it uploads, it leaves 0 bound to GL_TEXTURE_2D_ARRAY of the active unit and to
+     * GL_PIXEL_UNPACK_BUFFER, and GL_UNPACK_* at OpenGL's initial values. 0 after each attach. */
+    LodestarStatus (*set_host_resets)(LodestarContext*, int32_t resets);
 } LodestarGlApi;
 
 typedef struct LodestarApi {
