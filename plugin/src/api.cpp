@@ -212,6 +212,37 @@ LodestarStatus documentDestroy(LodestarContext* context, LodestarDocument handle
     });
 }
 
+LodestarStatus documentMaterial(LodestarContext* context, LodestarDocument handle, const char* name,
+                                LodestarMaterial* material) noexcept {
+    return entered(context, [&]() -> LodestarStatus {
+        const document::Document* document = context->documents.find(handle);
+        if (document == nullptr || name == nullptr) {
+            return context->fail(LODESTAR_E_ARG, "no such document, or no name");
+        }
+        LodestarMaterial given{};
+        if (!readStruct(material, given)) {
+            return context->fail(LODESTAR_E_ABI,
+                                 "the material's struct_size is none, or members are unknown");
+        }
+        const auto found = document->materials.find(name);
+        if (found == document->materials.end()) {
+            return LODESTAR_OK;
+        }
+        core::Tally warnings;
+        standOver(found->second, given, warnings);
+        context->log(warnings);
+        return writeStruct(given, material) ? LODESTAR_OK : LODESTAR_E_ABI;
+    });
+}
+
+LodestarStatus materialPack(const LodestarMaterial* material, float packed[8]) noexcept {
+    LodestarMaterial given{};
+    if (!readStruct(material, given)) {
+        return LODESTAR_E_ABI;
+    }
+    return packed != nullptr && packMaterial(given, packed) ? LODESTAR_OK : LODESTAR_E_ARG;
+}
+
 LodestarStatus setHour(LodestarContext* context, double hour) noexcept {
     return entered(context, [&]() -> LodestarStatus {
         if (!std::isfinite(hour)) {
@@ -400,7 +431,9 @@ constexpr LodestarApi kApi{sizeof(LodestarApi),
                            radiance,
                            lambert,
                            glslText,
-                           getExtension};
+                           getExtension,
+                           documentMaterial,
+                           materialPack};
 
 } // namespace
 } // namespace lodestar::plugin

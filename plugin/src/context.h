@@ -179,6 +179,11 @@ template <class T>
 [[nodiscard]] core::Result<lighting::DayLight> lightOf(const LodestarLightDesc& desc,
                                                        core::Tally& warnings);
 
+/// Two vec4: diffuse, exponent; f0, 1. @return false if a value is out of range
+[[nodiscard]] bool packMaterial(const LodestarMaterial& material, float packed[8]);
+/// What a document says of a material replaces what the host's says.
+void standOver(const document::Material& from, LodestarMaterial& material, core::Tally& warnings);
+
 /// A light at the context's hour; its version follows its content.
 [[nodiscard]] lighting::DayMoment look(PlacedLight& light, double hour);
 /// Its texels, made when they are first asked for. @pre looked at

@@ -36,12 +36,12 @@ core::Result<void> save(const std::string& path, const osg::Image& image) {
 }
 
 /// The document's lights in a context. @return the exit status
-int light(const HostCall& call, const LodestarApi& api, LodestarContext* context) {
+int light(const HostCall& call, const LodestarApi& api, LodestarContext* context,
+          LodestarDocument& document) {
     const auto text = io::readFile(call.lighting);
     if (!text) {
         return hostFails(kName, text.error().message(), 3);
     }
-    LodestarDocument document = 0;
     if (api.document_load(context, reinterpret_cast<const char*>(text->data()), text->size(),
                           &document) != LODESTAR_OK ||
         api.document_apply(context, document) != LODESTAR_OK) {
@@ -51,7 +51,8 @@ int light(const HostCall& call, const LodestarApi& api, LodestarContext* context
 }
 
 int draw(const HostCall& call, const LodestarApi& api, LodestarContext* context) {
-    if (const int status = light(call, api, context); status != 0) {
+    LodestarDocument document = 0;
+    if (const int status = light(call, api, context, document); status != 0) {
         return status;
     }
     const auto loaded = loadHostScene(call);
@@ -61,7 +62,11 @@ int draw(const HostCall& call, const LodestarApi& api, LodestarContext* context)
     if (!osghost::makeContextCurrent()) {
         return hostFails(kName, "no EGL context without a surface", 4);
     }
-    osg::ref_ptr<osg::Group> root = osghost::sceneOf(loaded->file);
+    osg::ref_ptr<osg::Group> root = osghost::sceneOf(loaded->file, {api, context, document});
+    if (!root) {
+        return hostFails(kName,
+                         call.scene + ": a material is out of range " + api.last_error(context), 3);
+    }
     root->getOrCreateStateSet()->setAttributeAndModes(osghost::programOf(api));
     osghost::Lights lights(api, context, *root->getStateSet(), 0);
     if (lights.update(call.hour) != LODESTAR_OK) {

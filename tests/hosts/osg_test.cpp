@@ -39,9 +39,10 @@ std::string spheres(const TemporaryFolder& folder, double x) {
 }
 
 /// A sky and a sun that the day moves; the sun casts no shadow, for that is the host's own.
-std::string day(const TemporaryFolder& folder) {
+/// @param more members of the document
+std::string day(const TemporaryFolder& folder, const std::string& more = {}) {
     return folder
-        .write("day.lodestar.json", std::string(R"({"lodestar": 1, "lights": [
+        .write("day.lodestar.json", R"({"lodestar": 1, )" + more + R"("lights": [
         {"name": "sky", "kind": "sky", "keys": [
             {"hour": 12, "gradient": {"stops": [{"at": 90, "color": [0.1, 0.25, 0.7]}, {"at": 0, "color": [0.8, 0.85, 0.9]},
                 {"at": 0, "color": [0.25, 0.2, 0.15]}, {"at": -90, "color": [0.1, 0.08, 0.06]}]}},
@@ -49,7 +50,7 @@ std::string day(const TemporaryFolder& folder) {
                 {"at": 0, "color": [1.2, 0.6, 0.25]}, {"at": -90, "color": [0.04, 0.03, 0.03]}]}}]},
         {"name": "sun", "kind": "sun", "visibility": false, "path": {"latitude": 45, "dayOfYear": 170}, "keys": [
             {"hour": 12, "gradient": {"stops": [{"at": 0, "color": [1, 0.95, 0.9], "ev": 12}, {"at": 0.5, "color": [1, 0.95, 0.9], "ev": 12},
-                {"at": 0.5, "color": [1, 1, 1]}, {"at": 20, "color": [0, 0, 0]}]}}]}]})"))
+                {"at": 0.5, "color": [1, 1, 1]}, {"at": 20, "color": [0, 0, 0]}]}}]}]})")
         .string();
 }
 
@@ -119,6 +120,17 @@ TEST(OsgHost, TheHostsAreCalledAlike) {
     EXPECT_TRUE(passes(drawn(program("lodestar-host-osg"), folder, scene, lighting, "9", ""),
                        builtin, "the scene framed"));
     EXPECT_FALSE(passes(byHost(folder, scene, lighting, "9"), builtin, "from elsewhere"));
+}
+
+TEST(OsgHost, ADocumentsMaterialsStandOverTheFiles) {
+    const TemporaryFolder folder, plain;
+    const std::string scene = spheres(folder, 2.2);
+    const std::string lighting =
+        day(folder, R"("materials": {"#1": {"exponent": 200, "f0": [0.2, 0.5, 0.3]},
+                                     "#2": {"diffuse": [0.4, 0.1, 0.1]}}, )");
+    const core::Image own = byUs(folder, scene, lighting, "9");
+    EXPECT_TRUE(passes(byHost(folder, scene, lighting, "9"), own, "materials"));
+    EXPECT_FALSE(passes(byHost(folder, scene, day(plain), "9"), own, "without them"));
 }
 
 TEST(OsgHost, ABrokenDocumentIsSaid) {

@@ -13,30 +13,64 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "hosts/osg/lights.h"
-#include "lodestar/lobes.glsl"
 
 namespace lodestar::osghost {
 namespace {
 
-osg::Vec4 vec4(const glm::vec3& v, float w) {
-    return {v.x, v.y, v.z, w};
+template <class Vector>
+void put(const Vector& from, double into[3]) {
+    for (int i = 0; i < 3; ++i) {
+        into[i] = from[i];
+    }
 }
 
-void setMaterial(const io::GltfMaterial& material, osg::StateSet& state) {
-    glm::vec3 base(material.baseColor);
-    glm::vec3 diffuse = shader::lodestar_diffuseFromMetallic(base, material.metallic);
-    glm::vec3 f0 = shader::lodestar_f0FromMetallic(base, material.metallic);
-    float exponent = shader::lodestar_exponentFromRoughness(material.roughness);
-    if (material.blinnPhong) {
-        diffuse = material.blinnPhong->diffuse.value_or(base);
-        f0 = material.blinnPhong->f0.value_or(glm::vec3(0.04f));
-        exponent = material.blinnPhong->exponent.value_or(0.0f);
+LodestarMaterial materialOf(const io::GltfMaterial& from) {
+    LodestarMaterial material{};
+    material.struct_size = sizeof material;
+    put(from.baseColor, material.base_color);
+    material.metallic = from.metallic;
+    material.roughness = from.roughness;
+    if (from.blinnPhong) {
+        // Given at all, even empty, they win: one that is there is named.
+        material.given = LODESTAR_MATERIAL_EXPONENT;
+        material.exponent = from.blinnPhong->exponent.value_or(0.0f);
+        if (from.blinnPhong->diffuse) {
+            material.given |= LODESTAR_MATERIAL_DIFFUSE;
+            put(*from.blinnPhong->diffuse, material.diffuse);
+        }
+        if (from.blinnPhong->f0) {
+            material.given |= LODESTAR_MATERIAL_F0;
+            put(*from.blinnPhong->f0, material.f0);
+        }
     }
-    state.addUniform(new osg::Uniform("material_diffuse", vec4(diffuse, 0.0f)));
-    state.addUniform(new osg::Uniform("material_f0", vec4(f0, exponent)));
-    if (!material.doubleSided) {
+    return material;
+}
+
+/// @param index of the material in its file; io::kNone for that of primitives without one
+bool setMaterial(const io::GltfMaterial& from, int index, const Lighting& lighting,
+                 osg::StateSet& state) {
+    LodestarMaterial material = materialOf(from);
+    if (index != io::kNone) {
+        for (const std::string& name : {"#" + std::to_string(index), from.name}) {
+            if (!name.empty() &&
+                lighting.api.document_material(lighting.context, lighting.document, name.c_str(),
+                                               &material) != LODESTAR_OK) {
+                return false;
+            }
+        }
+    }
+    float packed[8];
+    if (lighting.api.material_pack(&material, packed) != LODESTAR_OK) {
+        return false;
+    }
+    state.addUniform(new osg::Uniform("material_diffuse",
+                                      osg::Vec4(packed[0], packed[1], packed[2], packed[3])));
+    state.addUniform(
+        new osg::Uniform("material_f0", osg::Vec4(packed[4], packed[5], packed[6], packed[7])));
+    if (!from.doubleSided) {
         state.setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
     }
+    return true;
 }
 
 osg::ref_ptr<osg::Geometry> geometryOf(const io::GltfPrimitive& primitive) {
@@ -67,7 +101,7 @@ osg::Matrixd matrixOf(const io::GltfNode& node) {
     return osg::Matrixd(glm::value_ptr(m)); // both lie column after column for column vectors
 }
 
-osg::ref_ptr<osg::Node> nodeOf(const io::GltfFile& file, int index) {
+osg::ref_ptr<osg::Node> nodeOf(const io::GltfFile& file, int index, const Lighting& lighting) {
     const io::GltfNode& node = file.nodes[static_cast<std::size_t>(index)];
     osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(matrixOf(node));
     transform->setName(node.name);
@@ -79,16 +113,23 @@ osg::ref_ptr<osg::Node> nodeOf(const io::GltfFile& file, int index) {
                 continue;
             }
             osg::ref_ptr<osg::Geometry> geometry = geometryOf(primitive);
-            setMaterial(primitive.material == io::kNone
-                            ? io::GltfMaterial{}
-                            : file.materials[static_cast<std::size_t>(primitive.material)],
-                        *geometry->getOrCreateStateSet());
+            const int material = primitive.material;
+            if (!setMaterial(material == io::kNone
+                                 ? io::GltfMaterial{}
+                                 : file.materials[static_cast<std::size_t>(material)],
+                             material, lighting, *geometry->getOrCreateStateSet())) {
+                return nullptr;
+            }
             geode->addDrawable(geometry);
         }
         transform->addChild(geode);
     }
     for (const int child : node.children) {
-        transform->addChild(nodeOf(file, child));
+        const osg::ref_ptr<osg::Node> made = nodeOf(file, child, lighting);
+        if (!made) {
+            return nullptr;
+        }
+        transform->addChild(made);
     }
     return transform;
 }
@@ -109,11 +150,15 @@ std::string textOf(const LodestarApi& api, const char* file) {
 
 } // namespace
 
-osg::ref_ptr<osg::Group> sceneOf(const io::GltfFile& file) {
+osg::ref_ptr<osg::Group> sceneOf(const io::GltfFile& file, const Lighting& lighting) {
     osg::ref_ptr<osg::Group> root = new osg::Group;
     if (file.defaultScene != io::kNone) {
         for (const int index : file.scenes[static_cast<std::size_t>(file.defaultScene)].roots) {
-            root->addChild(nodeOf(file, index));
+            const osg::ref_ptr<osg::Node> made = nodeOf(file, index, lighting);
+            if (!made) {
+                return nullptr;
+            }
+            root->addChild(made);
         }
     }
     return root;
@@ -148,7 +193,7 @@ void main() {
     here.normal = normalize(vNormal) * (gl_FrontFacing ? 1.0 : -1.0);
     here.diffuse = material_diffuse.rgb;
     here.f0 = material_f0.rgb;
-    here.exponent = material_f0.w;
+    here.exponent = material_diffuse.w;
     here.occlusion = 1.0;
     vec3 radiance = lodestar_lights(here);
     gl_FragColor = vec4(lodestar_srgbFromLinear(lodestar_filmic(radiance.r)),

@@ -13,9 +13,17 @@
 
 namespace lodestar::osghost {
 
-/// The default scene of a file, Y up. Each geometry's StateSet has the uniforms `material_diffuse`,
-/// `material_f0` (w: Blinn-Phong exponent).
-[[nodiscard]] osg::ref_ptr<osg::Group> sceneOf(const io::GltfFile& file);
+/// A document whose materials stand over a file's.
+struct Lighting {
+    const LodestarApi& api;
+    LodestarContext* context;
+    LodestarDocument document;
+};
+
+/// The default scene of a file, Y up. Each geometry's StateSet has the uniforms `material_diffuse`
+/// (w: Blinn-Phong exponent) and `material_f0`. Null if the library refuses a material, as
+/// last_error says.
+[[nodiscard]] osg::ref_ptr<osg::Group> sceneOf(const io::GltfFile& file, const Lighting& lighting);
 
 /// What shades it: the lights of `Lights`, filmic curve and sRGB as `lodestar render` shows them.
 [[nodiscard]] osg::ref_ptr<osg::Program> programOf(const LodestarApi& api);

@@ -156,6 +156,20 @@ typedef struct LodestarMapLayout {
     float first_octave, rows_per_octave;
 } LodestarMapLayout;
 
+/* A material without textures, in glTF's quantities or, where `given` has a bit, in Blinn-Phong's.
+ * With any bit metallic and roughness say nothing: what is not given is the base colour, an F0 of
+ * 0.04, exponent 0. Reflectances, metallic and roughness in [0, 1]. */
+typedef struct LodestarMaterial {
+    uint32_t struct_size;
+    uint32_t given; /* LODESTAR_MATERIAL_* */
+    double base_color[3];
+    double metallic, roughness;
+    double diffuse[3]; /* k_L */
+    double f0[3];
+    double exponent; /* Blinn-Phong, at least 0; above 1e7, and infinite, a mirror */
+} LodestarMaterial;
+enum { LODESTAR_MATERIAL_DIFFUSE = 1, LODESTAR_MATERIAL_F0 = 2, LODESTAR_MATERIAL_EXPONENT = 4 };
+
 /* Which GLSL a text is for. */
 typedef struct LodestarDialect {
     uint32_t struct_size;
@@ -250,6 +264,15 @@ typedef struct LodestarApi {
                                 size_t* size);
     /* [any] An interface that this version has no member for, by its id; null if there is none. */
     const void* (*get_extension)(const char* id);
+
+    /* [main] Sets what the document says of a material, by its name in glTF or "#index", over the
+     * host's, and the bits of it; a material that it does not name stays. A host asks by number,
+     * then by name. */
+    LodestarStatus (*document_material)(LodestarContext*, LodestarDocument, const char* name,
+                                        LodestarMaterial*);
+    /* [any] Two vec4 of uniform data, GLSL's LodestarSurface: diffuse, exponent; f0, 1.
+     * LODESTAR_E_ARG: a value is out of range; nothing is written. */
+    LodestarStatus (*material_pack)(const LodestarMaterial*, float packed[8]);
 } LodestarApi;
 
 /* [any] The only symbol. Fills the host's table as far as struct_size reaches.
