@@ -29,7 +29,7 @@ tests: editor/app runtime/scene runtime/platform plugin samples
 # may use it. Headers that match no pattern are the standard library's or the system's.
 third_party='
 ^glm/ shaders/lodestar shaders/host runtime/lighting runtime/document runtime/plan runtime/io runtime/gl runtime/scene editor/app editor/ui editor/model plugin plugin/hosts samples
-^epoxy/ runtime/gl runtime/platform runtime/scene editor/ui editor/app plugin plugin/hosts
+^epoxy/ runtime/gl runtime/platform runtime/scene editor/ui editor/app plugin plugin/hosts samples
 ^(GL|EGL|GLES[23]|KHR)/ runtime/platform runtime/gl plugin plugin/hosts
 ^OpenImageIO/ runtime/io
 ^(png|jpeglib)\.h runtime/io

@@ -8,58 +8,14 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "hosts/shading.h"
+
 #ifndef GL_RGBA32F_ARB
 #define GL_RGBA32F_ARB 0x8814
 #endif
 
 namespace lodestar::osghost {
 namespace {
-
-constexpr int kMaxLights = 32;
-
-constexpr const char* kText = R"(
-uniform sampler2DArray lodestar_maps;
-uniform sampler2DArray lodestar_lamberts;
-uniform sampler2DArray lodestar_gradients;
-uniform int lodestar_count;
-uniform vec4 lodestar_axes[32];   // w: layer
-uniform vec4 lodestar_mapSize;    // columns, rows, exponents of the first and the last row
-uniform vec4 lodestar_mapRows;    // first octave, rows an octave, columns of the two lines
-
-vec4 lodestar_host_rsrm(float column, float row, int layer) {
-    return vec4(textureLod(lodestar_maps, vec3((vec2(column, row) + 0.5) / lodestar_mapSize.xy, float(layer)), 0.0).rgb, 1.0);
-}
-vec3 lineAt(sampler2DArray lines, float at, float columns, int layer) {
-    return textureLod(lines, vec3((at * (columns - 1.0) + 0.5) / columns, 0.5, float(layer)), 0.0).rgb;
-}
-vec3 lodestar_host_rsrmLambert(float u, int layer) {
-    return lineAt(lodestar_lamberts, u, lodestar_mapRows.z, layer);
-}
-vec3 lodestar_host_rsrmGradient(float u2, int layer) {
-    return lineAt(lodestar_gradients, u2, lodestar_mapRows.w, layer);
-}
-
-vec3 lodestar_lights(LodestarSurface here) {
-    LodestarLookup lookup = lodestar_lookup(here.normal, here.view, here.exponent);
-    vec3 lambert = vec3(0.0);
-    vec3 glossy = vec3(0.0);
-    for (int i = 0; i < lodestar_count; ++i) {
-        LodestarRsrm map;
-        map.layer = int(lodestar_axes[i].w);
-        map.layoutName = LODESTAR_RSRM_REFINED;
-        map.axis = lodestar_axes[i].xyz;
-        map.columns = lodestar_mapSize.x;
-        map.rows = lodestar_mapSize.y;
-        map.leastExponent = lodestar_mapSize.z;
-        map.greatestExponent = lodestar_mapSize.w;
-        map.firstOctave = lodestar_mapRows.x;
-        map.rowsPerOctave = lodestar_mapRows.y;
-        lambert += lodestar_rsrmLambert(map, here.normal);
-        glossy += lodestar_rsrm(map, lookup.direction, lodestar_rsrmRow(map, lookup.exponent));
-    }
-    return lodestar_reflected(here, lambert, glossy);
-}
-)";
 
 osg::ref_ptr<osg::Texture2DArray> makeArray(std::uint32_t width, std::uint32_t height,
                                             std::size_t layers) {
@@ -116,27 +72,20 @@ Lights::Lights(const LodestarApi& api, LodestarContext* context, osg::StateSet& 
                int firstUnit)
     : api_(api), context_(context), state_(&state), firstUnit_(firstUnit),
       count_(new osg::Uniform("lodestar_count", 0)),
-      axes_(new osg::Uniform(osg::Uniform::FLOAT_VEC4, "lodestar_axes", kMaxLights)) {
+      axes_(new osg::Uniform(osg::Uniform::FLOAT_VEC4, "lodestar_axes", hosts::kMaxLights)) {
     layout_.struct_size = sizeof layout_;
     api_.map_layout(&layout_);
     state.addUniform(count_);
     state.addUniform(axes_);
+    const hosts::MapUniforms map = hosts::mapUniforms(layout_);
     state.addUniform(new osg::Uniform(
-        "lodestar_mapSize",
-        osg::Vec4(static_cast<float>(layout_.columns), static_cast<float>(layout_.rows),
-                  layout_.least_exponent, layout_.greatest_exponent)));
-    state.addUniform(new osg::Uniform("lodestar_mapRows",
-                                      osg::Vec4(layout_.first_octave, layout_.rows_per_octave,
-                                                static_cast<float>(layout_.lambert_columns),
-                                                static_cast<float>(layout_.gradient_columns))));
+        "lodestar_mapSize", osg::Vec4(map.size[0], map.size[1], map.size[2], map.size[3])));
+    state.addUniform(new osg::Uniform(
+        "lodestar_mapRows", osg::Vec4(map.rows[0], map.rows[1], map.rows[2], map.rows[3])));
     int unit = firstUnit;
     for (const char* name : {"lodestar_maps", "lodestar_lamberts", "lodestar_gradients"}) {
         state.addUniform(new osg::Uniform(name, unit++));
     }
-}
-
-const char* Lights::shaderText() {
-    return kText;
 }
 
 LodestarStatus Lights::layOut() {
@@ -149,7 +98,7 @@ LodestarStatus Lights::layOut() {
     if (status < 0) {
         return status;
     }
-    handles.resize(std::min<std::size_t>(count, kMaxLights));
+    handles.resize(std::min<std::size_t>(count, hosts::kMaxLights));
     const bool same = handles.size() == layers_.size() &&
                       std::equal(handles.begin(), handles.end(), layers_.begin(),
                                  [](LodestarLight a, const Layer& b) { return a == b.light; });

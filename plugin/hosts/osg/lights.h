@@ -15,7 +15,8 @@
 
 namespace lodestar::osghost {
 
-/// The lights of a context in a StateSet: texture units from `firstUnit` on, three of them.
+/// The lights of a context in a StateSet, as hosts::shadingText reads them: texture units from
+/// `firstUnit` on, three of them.
 class Lights {
 public:
     /// @param context that outlives this  @param state what is lit below
@@ -24,10 +25,6 @@ public:
     /// Moves to an hour: axes as uniforms, texels where they have changed.
     /// @return the first status that is not LODESTAR_OK; last_error says it in words
     LodestarStatus update(double hour);
-
-    /// The hooks of lodestar/rsrm.glsl over these textures, and `vec3
-    /// lodestar_lights(LodestarSurface)`.
-    [[nodiscard]] static const char* shaderText();
 
 private:
     /// What a layer of the textures holds.

@@ -12,62 +12,25 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "hosts/osg/lights.h"
+#include "hosts/material.h"
+#include "hosts/shading.h"
 
 namespace lodestar::osghost {
 namespace {
 
-template <class Vector>
-void put(const Vector& from, double into[3]) {
-    for (int i = 0; i < 3; ++i) {
-        into[i] = from[i];
-    }
-}
-
-LodestarMaterial materialOf(const io::GltfMaterial& from) {
-    LodestarMaterial material{};
-    material.struct_size = sizeof material;
-    put(from.baseColor, material.base_color);
-    material.metallic = from.metallic;
-    material.roughness = from.roughness;
-    if (from.blinnPhong) {
-        // Given at all, even empty, they win: one that is there is named.
-        material.given = LODESTAR_MATERIAL_EXPONENT;
-        material.exponent = from.blinnPhong->exponent.value_or(0.0f);
-        if (from.blinnPhong->diffuse) {
-            material.given |= LODESTAR_MATERIAL_DIFFUSE;
-            put(*from.blinnPhong->diffuse, material.diffuse);
-        }
-        if (from.blinnPhong->f0) {
-            material.given |= LODESTAR_MATERIAL_F0;
-            put(*from.blinnPhong->f0, material.f0);
-        }
-    }
-    return material;
-}
-
 /// @param index of the material in its file; io::kNone for that of primitives without one
-bool setMaterial(const io::GltfMaterial& from, int index, const Lighting& lighting,
+bool setMaterial(const io::GltfFile& file, int index, const Lighting& lighting,
                  osg::StateSet& state) {
-    LodestarMaterial material = materialOf(from);
-    if (index != io::kNone) {
-        for (const std::string& name : {"#" + std::to_string(index), from.name}) {
-            if (!name.empty() &&
-                lighting.api.document_material(lighting.context, lighting.document, name.c_str(),
-                                               &material) != LODESTAR_OK) {
-                return false;
-            }
-        }
-    }
     float packed[8];
-    if (lighting.api.material_pack(&material, packed) != LODESTAR_OK) {
+    if (!hosts::packMaterial(lighting.api, lighting.context, lighting.document, file, index,
+                             packed)) {
         return false;
     }
     state.addUniform(new osg::Uniform("material_diffuse",
                                       osg::Vec4(packed[0], packed[1], packed[2], packed[3])));
     state.addUniform(
         new osg::Uniform("material_f0", osg::Vec4(packed[4], packed[5], packed[6], packed[7])));
-    if (!from.doubleSided) {
+    if (!hosts::isDoubleSided(file, index)) {
         state.setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
     }
     return true;
@@ -113,11 +76,8 @@ osg::ref_ptr<osg::Node> nodeOf(const io::GltfFile& file, int index, const Lighti
                 continue;
             }
             osg::ref_ptr<osg::Geometry> geometry = geometryOf(primitive);
-            const int material = primitive.material;
-            if (!setMaterial(material == io::kNone
-                                 ? io::GltfMaterial{}
-                                 : file.materials[static_cast<std::size_t>(material)],
-                             material, lighting, *geometry->getOrCreateStateSet())) {
+            if (!setMaterial(file, primitive.material, lighting,
+                             *geometry->getOrCreateStateSet())) {
                 return nullptr;
             }
             geode->addDrawable(geometry);
@@ -132,20 +92,6 @@ osg::ref_ptr<osg::Node> nodeOf(const io::GltfFile& file, int index, const Lighti
         transform->addChild(made);
     }
     return transform;
-}
-
-std::string textOf(const LodestarApi& api, const char* file) {
-    LodestarDialect dialect{};
-    dialect.struct_size = sizeof dialect;
-    dialect.version = 330;
-    dialect.profile = LODESTAR_PROFILE_COMPATIBILITY;
-    dialect.without_version_line = 1;
-    std::size_t size = 0;
-    api.glsl_text(file, &dialect, nullptr, &size);
-    std::string text(size, '\0');
-    api.glsl_text(file, &dialect, text.data(), &size);
-    text.resize(size > 0 ? size - 1 : 0);
-    return text;
 }
 
 } // namespace
@@ -175,13 +121,8 @@ void main() {
     vNormal = mat3(osg_ViewMatrixInverse) * (gl_NormalMatrix * gl_Normal);
     gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
 })";
-    // The environment's own hooks are not asked for here.
-    const std::string fragment = version + textOf(api, "lodestar/environment.glsl") +
-                                 textOf(api, "lodestar/rsrm.glsl") +
-                                 textOf(api, "lodestar/display.glsl") + R"(
-vec4 lodestar_host_cube(int slot, vec3 direction, float level) { return vec4(0.0); }
-vec3 lodestar_host_irradiance(int slot, vec3 normal) { return vec3(0.0); }
-)" + Lights::shaderText() + R"(
+    const std::string fragment =
+        version + hosts::shadingText(api, LODESTAR_PROFILE_COMPATIBILITY) + R"(
 uniform mat4 osg_ViewMatrixInverse;
 uniform vec4 material_diffuse;
 uniform vec4 material_f0;

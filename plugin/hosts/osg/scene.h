@@ -25,7 +25,8 @@ struct Lighting {
 /// last_error says.
 [[nodiscard]] osg::ref_ptr<osg::Group> sceneOf(const io::GltfFile& file, const Lighting& lighting);
 
-/// What shades it: the lights of `Lights`, filmic curve and sRGB as `lodestar render` shows them.
+/// What shades it: hosts::shadingText over the uniforms of `Lights`, filmic curve and sRGB as
+/// `lodestar render` shows them.
 [[nodiscard]] osg::ref_ptr<osg::Program> programOf(const LodestarApi& api);
 
 } // namespace lodestar::osghost

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The same scene under the same document in OpenSceneGraph and in the built-in renderer.
+// The same scene under the same document in another engine (LODESTAR_HOST) and in the built-in
+// renderer.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -74,7 +75,7 @@ core::Image drawn(const std::string& command, const TemporaryFolder& folder,
 
 core::Image byHost(const TemporaryFolder& folder, const std::string& scene,
                    const std::string& lighting, const std::string& hour) {
-    return drawn(program("lodestar-host-osg"), folder, scene, lighting, hour);
+    return drawn(program(LODESTAR_HOST), folder, scene, lighting, hour);
 }
 
 core::Image byUs(const TemporaryFolder& folder, const std::string& scene,
@@ -92,7 +93,7 @@ bool passes(const core::Image& a, const core::Image& b, const char* what) {
     return d.largest <= 2.5 / 255.0 && d.mean <= 0.01 / 255.0;
 }
 
-TEST(OsgHost, ADocumentLightsItAsItLightsUs) {
+TEST(Host, ADocumentLightsItAsItLightsUs) {
     const TemporaryFolder folder;
     const std::string lighting = day(folder);
     const std::string scene = spheres(folder, 2.2);
@@ -110,19 +111,19 @@ TEST(OsgHost, ADocumentLightsItAsItLightsUs) {
     EXPECT_FALSE(passes(byHost(folder, scene, lighting, "9"), own, "not moved"));
 }
 
-TEST(OsgHost, TheHostsAreCalledAlike) {
+TEST(Host, TheHostsAreCalledAlike) {
     const TemporaryFolder folder;
     const std::string lighting = day(folder);
     const std::string scene = spheres(folder, 2.2);
     // Without a view each shows the whole scene, from the same place.
     const core::Image builtin =
         drawn(program("lodestar-host-builtin"), folder, scene, lighting, "9", "");
-    EXPECT_TRUE(passes(drawn(program("lodestar-host-osg"), folder, scene, lighting, "9", ""),
-                       builtin, "the scene framed"));
+    EXPECT_TRUE(passes(drawn(program(LODESTAR_HOST), folder, scene, lighting, "9", ""), builtin,
+                       "the scene framed"));
     EXPECT_FALSE(passes(byHost(folder, scene, lighting, "9"), builtin, "from elsewhere"));
 }
 
-TEST(OsgHost, ADocumentsMaterialsStandOverTheFiles) {
+TEST(Host, ADocumentsMaterialsStandOverTheFiles) {
     const TemporaryFolder folder, plain;
     const std::string scene = spheres(folder, 2.2);
     const std::string lighting =
@@ -133,7 +134,7 @@ TEST(OsgHost, ADocumentsMaterialsStandOverTheFiles) {
     EXPECT_FALSE(passes(byHost(folder, scene, day(plain), "9"), own, "without them"));
 }
 
-TEST(OsgHost, ABrokenDocumentIsSaid) {
+TEST(Host, ABrokenDocumentIsSaid) {
     const TemporaryFolder folder;
     const std::string scene = spheres(folder, 2.2);
     const std::string broken =
@@ -142,9 +143,8 @@ TEST(OsgHost, ABrokenDocumentIsSaid) {
                    std::string(R"({"lodestar": 1, "lights": [{"kind": "moon", "keys": []}]})"))
             .string();
     const std::string said = (folder / "said").string();
-    const std::string command = program("lodestar-host-osg") + " " + scene + " --lighting " +
-                                broken + " -o " + (folder / "x.png").string() + " --size 8x8 2>" +
-                                said;
+    const std::string command = program(LODESTAR_HOST) + " " + scene + " --lighting " + broken +
+                                " -o " + (folder / "x.png").string() + " --size 8x8 2>" + said;
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 3);
     std::ifstream file(said);
     std::string line;

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "hosts/material.h"
+
+#include <string>
+
+namespace lodestar::hosts {
+namespace {
+
+template <class Vector>
+void put(const Vector& from, double into[3]) {
+    for (int i = 0; i < 3; ++i) {
+        into[i] = from[i];
+    }
+}
+
+LodestarMaterial materialOf(const io::GltfMaterial& from) {
+    LodestarMaterial material{};
+    material.struct_size = sizeof material;
+    put(from.baseColor, material.base_color);
+    material.metallic = from.metallic;
+    material.roughness = from.roughness;
+    if (from.blinnPhong) {
+        // Given at all, even empty, they win: one that is there is named.
+        material.given = LODESTAR_MATERIAL_EXPONENT;
+        material.exponent = from.blinnPhong->exponent.value_or(0.0f);
+        if (from.blinnPhong->diffuse) {
+            material.given |= LODESTAR_MATERIAL_DIFFUSE;
+            put(*from.blinnPhong->diffuse, material.diffuse);
+        }
+        if (from.blinnPhong->f0) {
+            material.given |= LODESTAR_MATERIAL_F0;
+            put(*from.blinnPhong->f0, material.f0);
+        }
+    }
+    return material;
+}
+
+io::GltfMaterial materialAt(const io::GltfFile& file, int index) {
+    return index == io::kNone ? io::GltfMaterial{}
+                              : file.materials[static_cast<std::size_t>(index)];
+}
+
+} // namespace
+
+bool packMaterial(const LodestarApi& api, LodestarContext* context, LodestarDocument document,
+                  const io::GltfFile& file, int index, float packed[8]) {
+    const io::GltfMaterial from = materialAt(file, index);
+    LodestarMaterial material = materialOf(from);
+    if (index != io::kNone) {
+        for (const std::string& name : {"#" + std::to_string(index), from.name}) {
+            if (!name.empty() &&
+                api.document_material(context, document, name.c_str(), &material) != LODESTAR_OK) {
+                return false;
+            }
+        }
+    }
+    return api.material_pack(&material, packed) == LODESTAR_OK;
+}
+
+bool isDoubleSided(const io::GltfFile& file, int index) {
+    return materialAt(file, index).doubleSided;
+}
+
+} // namespace lodestar::hosts
