@@ -211,7 +211,7 @@ TEST(Document, TextsThatAreNone) {
         {R"({"lodestar": 1, "lights": [], "lights": []})", "twice"},
         {R"({"lodestar": 1, "environment": {"source": "a", "ev": 1e999}})", "beyond"},
         {R"({"lodestar": 1, "environment": {"source": "a", "ev": NaN}})", "line 1"},
-        {R"({"lodestar": 1, "x": )" + std::string(100000, '[') + std::string(100000, ']') + "}",
+        {std::string(R"({"lodestar": 1, "x": )").append(100000, '[').append(100000, ']') + "}",
          "nested"},
     };
     for (const auto& [text, part] : cases) {
