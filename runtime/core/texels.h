@@ -4,6 +4,7 @@
 // top.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -54,10 +55,10 @@ public:
         const float unit = value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f;
         const std::size_t at = offset(x, y, channel);
         if (depth_ == SampleDepth::Bits8) {
-            bytes_[at] = static_cast<unsigned char>(unit * 255.0f + 0.5f);
+            bytes_[at] = static_cast<unsigned char>(std::lround(unit * 255.0f));
             return;
         }
-        const auto sample = static_cast<std::uint16_t>(unit * 65535.0f + 0.5f);
+        const auto sample = static_cast<std::uint16_t>(std::lround(unit * 65535.0f));
         std::memcpy(&bytes_[2 * at], &sample, 2);
     }
 

@@ -97,17 +97,17 @@ void main() { oColor = vec4(values[4].rgb * abs(normalize(vNormal).z), 1.0); })"
                 if (mesh == nullptr) {
                     continue;
                 }
-                const io::GltfMaterial& material = scene.materials[static_cast<std::size_t>(
+                const io::GltfMaterial& worn = scene.materials[static_cast<std::size_t>(
                     scene.meshes[static_cast<std::size_t>(mesh->mesh)].primitives[0].material)];
                 program.use();
                 block.clipFromModel = view.clipFromWorld() * node.worldFromNode;
                 block.normalFromModel = glm::transpose(glm::inverse(node.worldFromNode));
                 draw.update(std::as_bytes(std::span(&block, 1)));
                 draw.bindBlock(0);
-                const auto values = scene::materialBlock(material, {});
-                this->material.update(std::as_bytes(std::span(&values, 1)));
-                this->material.bindBlock(1);
-                textures.bindTextures(material);
+                const auto values = scene::materialBlock(worn, {});
+                material.update(std::as_bytes(std::span(&values, 1)));
+                material.bindBlock(1);
+                textures.bindTextures(worn);
                 glEnable(GL_CULL_FACE);
                 glFrontFace(GL_CCW);
                 glDisable(GL_BLEND);

@@ -34,6 +34,19 @@ TEST(Texels, EveryLevelComesBackAsItWasSet) {
     }
 }
 
+TEST(Texels, JustBelowHalfALevelIsNone) {
+    for (const SampleDepth depth : {SampleDepth::Bits8, SampleDepth::Bits16}) {
+        const float most = depth == SampleDepth::Bits8 ? 255.0f : 65535.0f;
+        float value = 0.5f / most;
+        while (value * most >= 0.5f) {
+            value = std::nextafter(value, 0.0f);
+        }
+        Texels texels(1, 1, depth); // adding a half and cutting off would give the first level
+        texels.set(0, 0, 0, value);
+        EXPECT_EQ(texels.value(0, 0, 0), 0.0f);
+    }
+}
+
 TEST(Texels, ValuesOutsideAreBroughtIn) {
     for (const SampleDepth depth : {SampleDepth::Bits8, SampleDepth::Bits16}) {
         Texels texels(2, 2, depth);
