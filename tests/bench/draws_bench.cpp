@@ -2,8 +2,8 @@
 //
 // What 10,000 draws cost the CPU: the renderer's frame (plan, instances, batches), against a loop
 // that sets everything for each node and draws it. Both draw the same triangles into 16 x 16
-// pixels, so that a software driver's vertices weigh the same in both. CPU time of the calling
-// thread, medians, the ratio formed repeat by repeat.
+// pixels, so that a software driver's vertices weigh the same in both. CPU time of the
+// process, medians, the ratio formed repeat by repeat.
 //
 //   build/bench-draws [repeats]
 #include <cstdio>
