@@ -42,19 +42,19 @@ io::GltfMaterial materialAt(const io::GltfFile& file, int index) {
 
 } // namespace
 
-bool packMaterial(const LodestarApi& api, LodestarContext* context, LodestarDocument document,
-                  const io::GltfFile& file, int index, float packed[8]) {
+bool packMaterial(const LitContext& lit, const io::GltfFile& file, int index, float packed[8]) {
     const io::GltfMaterial from = materialAt(file, index);
     LodestarMaterial material = materialOf(from);
     if (index != io::kNone) {
         for (const std::string& name : {"#" + std::to_string(index), from.name}) {
             if (!name.empty() &&
-                api.document_material(context, document, name.c_str(), &material) != LODESTAR_OK) {
+                lit.api().document_material(lit.get(), lit.document(), name.c_str(), &material) !=
+                    LODESTAR_OK) {
                 return false;
             }
         }
     }
-    return api.material_pack(&material, packed) == LODESTAR_OK;
+    return lit.api().material_pack(&material, packed) == LODESTAR_OK;
 }
 
 bool isDoubleSided(const io::GltfFile& file, int index) {

@@ -11,8 +11,6 @@
 namespace lodestar::samples {
 namespace {
 
-constexpr const char* kName = "lodestar-host-builtin";
-
 core::Result<core::Image> draw(const HostCall& call, const HostScene& loaded) {
     core::Tally warnings;
     const auto document = io::loadDocument(call.lighting, warnings);
@@ -22,6 +20,9 @@ core::Result<core::Image> draw(const HostCall& call, const HostScene& loaded) {
     auto lights = document::dayLights(*document, warnings);
     if (!lights) {
         return core::inFile(lights.error(), call.lighting);
+    }
+    if (lights->empty()) {
+        return core::inFile(core::refused("has neither a sky nor a sun", "/lights"), call.lighting);
     }
     for (lighting::DayLight& light : *lights) {
         light.visibility = false;
@@ -57,24 +58,9 @@ core::Result<core::Image> draw(const HostCall& call, const HostScene& loaded) {
     return std::move(frame->radiance);
 }
 
-int run(const HostCall& call) {
-    const auto loaded = loadHostScene(call);
-    if (!loaded) {
-        return hostFails(kName, loaded.error().message(), static_cast<int>(loaded.error().code));
-    }
-    const auto picture = draw(call, *loaded);
-    if (!picture) {
-        return hostFails(kName, picture.error().message(), static_cast<int>(picture.error().code));
-    }
-    const auto written = io::writeImage(call.output, *picture);
-    return written ? 0 : hostFails(kName, written.error().message(), 5);
-}
-
 } // namespace
 } // namespace lodestar::samples
 
 int main(int argc, char** argv) {
-    const auto call = lodestar::samples::parseHostCall(argc, argv);
-    return call ? lodestar::samples::run(*call)
-                : lodestar::samples::explainHost(lodestar::samples::kName, argc, argv);
+    return lodestar::samples::runHost("lodestar-host-builtin", argc, argv, lodestar::samples::draw);
 }

@@ -3,8 +3,11 @@
 
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include <glm/trigonometric.hpp>
+
+#include "io/image_file.h"
 
 namespace lodestar::samples {
 namespace {
@@ -35,9 +38,8 @@ bool takeWord(HostCall& call, const std::string& word, const char* value) {
     return true;
 }
 
-} // namespace
-
-std::optional<HostCall> parseHostCall(int argc, char** argv) {
+/// The words of a call; nothing where they are none.
+std::optional<HostCall> parse(int argc, char** argv) {
     HostCall call;
     for (int i = 1; i < argc; ++i) {
         const std::string word = argv[i];
@@ -53,7 +55,8 @@ std::optional<HostCall> parseHostCall(int argc, char** argv) {
     return call;
 }
 
-int explainHost(const char* name, int argc, char** argv) {
+/// How a host is called. @return the exit status of a call that was none
+int explain(const char* name, int argc, char** argv) {
     const bool asked = argc == 2 && std::string(argv[1]) == "--help";
     std::fprintf(asked ? stdout : stderr,
                  "usage: %s SCENE --lighting FILE -o OUT.png [--size WxH] [--hour H]\n"
@@ -64,12 +67,7 @@ int explainHost(const char* name, int argc, char** argv) {
     return asked ? 0 : 2;
 }
 
-int hostFails(const char* name, const std::string& what, int status) {
-    std::fprintf(stderr, "%s: %s\n", name, what.c_str());
-    return status;
-}
-
-core::Result<HostScene> loadHostScene(const HostCall& call) {
+core::Result<HostScene> load(const HostCall& call) {
     auto file = io::loadGltf(call.scene, {});
     if (!file) {
         return core::inFile(file.error(), call.scene);
@@ -81,6 +79,42 @@ core::Result<HostScene> loadHostScene(const HostCall& call) {
         return core::inFile(view.error(), call.scene);
     }
     return HostScene{std::move(*file), *view};
+}
+
+core::Result<void> drawInto(const HostCall& call, HostDraw draw) {
+    const auto scene = load(call);
+    if (!scene) {
+        return scene.error();
+    }
+    const auto picture = draw(call, *scene);
+    return picture ? io::writeImage(call.output, *picture) : picture.error();
+}
+
+} // namespace
+
+int runHost(const char* name, int argc, char** argv, HostDraw draw) {
+    const auto call = parse(argc, argv);
+    if (!call) {
+        return explain(name, argc, argv);
+    }
+    const auto drawn = drawInto(*call, draw);
+    if (!drawn) {
+        std::fprintf(stderr, "%s: %s\n", name, drawn.error().message().c_str());
+        return static_cast<int>(drawn.error().code);
+    }
+    return 0;
+}
+
+core::Image pictureOf(const HostCall& call, const std::uint8_t* bytes) {
+    core::Image picture(call.width, call.height, 4);
+    for (int y = call.height - 1; y >= 0; --y) {
+        for (int x = 0; x < call.width; ++x) {
+            for (int c = 0; c < 4; ++c) {
+                picture.at(x, y)[c] = static_cast<float>(*bytes++) / 255.0f;
+            }
+        }
+    }
+    return picture;
 }
 
 } // namespace lodestar::samples

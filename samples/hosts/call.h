@@ -3,12 +3,12 @@
 // The command line that the hosts share, and what of it is the same in all of them.
 #pragma once
 
-#include <optional>
+#include <cstdint>
 #include <string>
 
+#include "core/image.h"
 #include "core/result.h"
 #include "io/gltf.h"
-#include "io/image_file.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
 
@@ -21,18 +21,20 @@ struct HostCall {
     scene::CameraRequest camera;
 };
 
-/// Reads the words; nothing where they are no call.
-std::optional<HostCall> parseHostCall(int argc, char** argv);
-/// Prints how a host is called. @return the exit status for a call that was none
-int explainHost(const char* name, int argc, char** argv);
-/// Prints one line `NAME: what`. @return the status
-int hostFails(const char* name, const std::string& what, int status);
-
-/// The scene, and the view that `lodestar render` would take of it. @errors as theirs
+/// The scene, and the view that `lodestar render` would take of it.
 struct HostScene {
     io::GltfFile file;
     scene::View view;
 };
-[[nodiscard]] core::Result<HostScene> loadHostScene(const HostCall& call);
+
+/// A host's part: the picture, as it is shown.
+using HostDraw = core::Result<core::Image> (*)(const HostCall& call, const HostScene& scene);
+
+/// Reads a host's words, loads its scene, lets it draw, writes the picture; says in one line what
+/// fails. @return the exit status
+int runHost(const char* name, int argc, char** argv, HostDraw draw);
+
+/// A picture of 8 bits a channel, RGBA, row 0 at the bottom.
+[[nodiscard]] core::Image pictureOf(const HostCall& call, const std::uint8_t* bytes);
 
 } // namespace lodestar::samples

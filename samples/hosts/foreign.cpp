@@ -10,19 +10,16 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
-#include <lodestar/lodestar.h>
-
 #include "call.h"
 #include "deferred_engine.h"
+#include "hosts/lit_context.h"
 #include "hosts/material.h"
 #include "hosts/shading.h"
-#include "io/file.h"
 #include "platform/headless_context.h"
 
 namespace lodestar::samples {
 namespace {
 
-constexpr const char* kName = "lodestar-host-foreign";
 constexpr GLuint kFirstUnit = 4; ///< behind the engine's own
 
 constexpr const char* kLighting = R"(
@@ -42,27 +39,42 @@ vec3 lighting(vec3 position, vec3 normal, vec4 surface0, vec4 surface1) {
                 lodestar_srgbFromLinear(lodestar_filmic(radiance.b)));
 })";
 
-struct Lodestar {
-    LodestarApi api{};
-    LodestarContext* context = nullptr;
-    LodestarDocument document = 0;
-    const LodestarGlApi* gl = nullptr;
-
-    /// Says why the library refused. @return the exit status
-    [[nodiscard]] int fails(const std::string& file = {}) const {
-        return hostFails(kName, (file.empty() ? "" : file + ": ") + api.last_error(context), 3);
+/// The library, its OpenGL extension attached as long as this lives.
+class Attached {
+public:
+    explicit Attached(const hosts::LitContext& lit)
+        : lit_(lit),
+          gl_(static_cast<const LodestarGlApi*>(lit.api().get_extension(LODESTAR_EXTENSION_GL))),
+          attached_(gl_ != nullptr && gl_->attach(lit.get(), procedure) == LODESTAR_OK) {}
+    Attached(const Attached&) = delete;
+    Attached& operator=(const Attached&) = delete;
+    ~Attached() {
+        if (attached_) {
+            gl_->detach(lit_.get(), 1);
+        }
     }
+    explicit operator bool() const { return attached_; }
+    [[nodiscard]] const hosts::LitContext& lit() const { return lit_; }
+    [[nodiscard]] const LodestarGlApi& gl() const { return *gl_; }
+
+private:
+    static void* procedure(const char* name) {
+        return reinterpret_cast<void*>(eglGetProcAddress(name));
+    }
+    const hosts::LitContext& lit_;
+    const LodestarGlApi* gl_;
+    bool attached_;
 };
 
-int addPrimitive(const Lodestar& lodestar, const io::GltfFile& file, const glm::mat4& world,
-                 const io::GltfPrimitive& primitive, DeferredEngine& engine) {
+/// @return whether the library took its material
+bool addPrimitive(const hosts::LitContext& lit, const io::GltfFile& file, const glm::mat4& world,
+                  const io::GltfPrimitive& primitive, DeferredEngine& engine) {
     if (primitive.topology != io::Topology::Triangles || primitive.normals.empty()) {
-        return 0;
+        return true;
     }
     float packed[8];
-    if (!hosts::packMaterial(lodestar.api, lodestar.context, lodestar.document, file,
-                             primitive.material, packed)) {
-        return lodestar.fails();
+    if (!hosts::packMaterial(lit, file, primitive.material, packed)) {
+        return false;
     }
     engine.add({.positions = primitive.positions,
                 .normals = primitive.normals,
@@ -70,37 +82,36 @@ int addPrimitive(const Lodestar& lodestar, const io::GltfFile& file, const glm::
                 .worldFromMesh = world,
                 .surface = {glm::make_vec4(packed), glm::make_vec4(packed + 4)},
                 .doubleSided = hosts::isDoubleSided(file, primitive.material)});
-    return 0;
+    return true;
 }
 
-int addScene(const Lodestar& lodestar, const io::GltfFile& file, DeferredEngine& engine) {
+bool addScene(const hosts::LitContext& lit, const io::GltfFile& file, DeferredEngine& engine) {
     const scene::Scene scene = scene::buildScene(file, file.defaultScene);
-    int status = 0;
     for (const scene::Node& node : scene.nodes) {
         for (const scene::Component& component : node.components) {
             const auto* drawn = std::get_if<scene::MeshComponent>(&component);
             if (drawn == nullptr) {
                 continue;
             }
-            const io::GltfMesh& mesh = scene.meshes[static_cast<std::size_t>(drawn->mesh)];
-            for (const io::GltfPrimitive& primitive : mesh.primitives) {
-                status = status != 0
-                             ? status
-                             : addPrimitive(lodestar, file, node.worldFromNode, primitive, engine);
+            for (const io::GltfPrimitive& primitive :
+                 scene.meshes[static_cast<std::size_t>(drawn->mesh)].primitives) {
+                if (!addPrimitive(lit, file, node.worldFromNode, primitive, engine)) {
+                    return false;
+                }
             }
         }
     }
-    return status;
+    return true;
 }
 
 /// The three arrays behind the engine's own units. @return whether the library gave them
-bool bindTextures(const Lodestar& lodestar, GLuint program) {
+bool bindTextures(const Attached& attached, GLuint program) {
     GLuint unit = kFirstUnit;
     int which = LODESTAR_TEXELS_MAP;
     for (const char* name : {"lodestar_maps", "lodestar_lamberts", "lodestar_gradients"}) {
         LodestarGlTexture texture{};
         texture.struct_size = sizeof texture;
-        if (lodestar.gl->texture(lodestar.context, which++, &texture) != LODESTAR_OK) {
+        if (attached.gl().texture(attached.lit().get(), which++, &texture) != LODESTAR_OK) {
             return false;
         }
         glActiveTexture(GL_TEXTURE0 + unit);
@@ -111,11 +122,11 @@ bool bindTextures(const Lodestar& lodestar, GLuint program) {
 }
 
 /// The lights that shine now, a vec4 each: their axes and layers.
-bool setLights(const Lodestar& lodestar, GLuint program) {
+bool setLights(const Attached& attached, GLuint program) {
     std::size_t count = 0;
-    lodestar.api.lights(lodestar.context, nullptr, &count);
+    attached.lit().api().lights(attached.lit().get(), nullptr, &count);
     std::vector<LodestarLight> lights(count);
-    if (lodestar.api.lights(lodestar.context, lights.data(), &count) != LODESTAR_OK) {
+    if (attached.lit().api().lights(attached.lit().get(), lights.data(), &count) != LODESTAR_OK) {
         return false;
     }
     std::vector<glm::vec4> axes;
@@ -123,11 +134,11 @@ bool setLights(const Lodestar& lodestar, GLuint program) {
         LodestarLightState state{};
         state.struct_size = sizeof state;
         std::uint32_t layer = 0;
-        if (lodestar.api.light_state(lodestar.context, light, &state) != LODESTAR_OK) {
+        if (attached.lit().api().light_state(attached.lit().get(), light, &state) != LODESTAR_OK) {
             return false;
         }
         if (state.visibility > 0.0 && axes.size() < std::size_t{hosts::kMaxLights} &&
-            lodestar.gl->layer(lodestar.context, light, &layer) == LODESTAR_OK) {
+            attached.gl().layer(attached.lit().get(), light, &layer) == LODESTAR_OK) {
             axes.emplace_back(glm::vec3(glm::make_vec3(state.axis)), static_cast<float>(layer));
         }
     }
@@ -151,90 +162,42 @@ void setView(const scene::View& view, const LodestarApi& api, GLuint program) {
     glUniform4fv(at("lodestar_mapRows"), 1, map.rows);
 }
 
-int save(const HostCall& call, const std::vector<std::uint8_t>& bytes) {
-    core::Image picture(call.width, call.height, 4);
-    std::size_t at = 0;
-    for (int y = call.height - 1; y >= 0; --y) {
-        for (int x = 0; x < call.width; ++x) {
-            for (int c = 0; c < 4; ++c) {
-                picture.at(x, y)[c] = static_cast<float>(bytes[at++]) / 255.0f;
-            }
-        }
-    }
-    const auto written = io::writeImage(call.output, picture);
-    return written ? 0 : hostFails(kName, written.error().message(), 5);
-}
-
-int drawLit(const HostCall& call, const Lodestar& lodestar, const HostScene& loaded) {
-    DeferredEngine engine(call.width, call.height);
-    if (const int status = addScene(lodestar, loaded.file, engine); status != 0) {
-        return status;
-    }
-    const std::string refused =
-        engine.setLighting(hosts::shadingText(lodestar.api, LODESTAR_PROFILE_CORE) + kLighting);
-    if (!refused.empty()) {
-        return hostFails(kName, "the shading text: " + refused, 1);
-    }
-    const GLuint program = engine.lightingProgram();
-    glUseProgram(program);
-    setView(loaded.view, lodestar.api, program);
-    if (lodestar.api.set_hour(lodestar.context, call.hour) != LODESTAR_OK ||
-        lodestar.gl->update(lodestar.context) != LODESTAR_OK || !setLights(lodestar, program) ||
-        !bindTextures(lodestar, program)) {
-        return lodestar.fails();
-    }
-    return save(call, engine.draw(loaded.view.clipFromWorld()));
-}
-
-void* procedure(const char* name) {
-    return reinterpret_cast<void*>(eglGetProcAddress(name));
-}
-
-int draw(const HostCall& call, Lodestar& lodestar) {
-    const auto text = io::readFile(call.lighting);
-    if (!text) {
-        return hostFails(kName, text.error().message(), 3);
-    }
-    const LodestarApi& api = lodestar.api;
-    if (api.document_load(lodestar.context, reinterpret_cast<const char*>(text->data()),
-                          text->size(), &lodestar.document) != LODESTAR_OK ||
-        api.document_apply(lodestar.context, lodestar.document) != LODESTAR_OK) {
-        return lodestar.fails(call.lighting);
-    }
-    const auto loaded = loadHostScene(call);
-    if (!loaded) {
-        return hostFails(kName, loaded.error().message(), static_cast<int>(loaded.error().code));
+core::Result<core::Image> draw(const HostCall& call, const HostScene& loaded) {
+    const auto lit = hosts::LitContext::open(call.lighting);
+    if (!lit) {
+        return lit.error();
     }
     auto context = platform::HeadlessContext::create();
     if (!context) {
-        return hostFails(kName, context.error().message(), 4);
+        return context.error();
     }
-    lodestar.gl = static_cast<const LodestarGlApi*>(api.get_extension(LODESTAR_EXTENSION_GL));
-    if (lodestar.gl->attach(lodestar.context, procedure) != LODESTAR_OK) {
-        return lodestar.fails();
+    DeferredEngine engine(call.width, call.height);
+    if (!addScene(*lit, loaded.file, engine)) {
+        return core::inFile(lit->refusal(), call.scene);
     }
-    const int status = drawLit(call, lodestar, *loaded);
-    lodestar.gl->detach(lodestar.context, 1);
-    return status;
-}
-
-int run(const HostCall& call) {
-    Lodestar lodestar;
-    lodestar.api.struct_size = sizeof lodestar.api;
-    if (lodestar_get_api(LODESTAR_ABI_VERSION, &lodestar.api) != LODESTAR_OK ||
-        lodestar.api.context_create(nullptr, &lodestar.context) != LODESTAR_OK) {
-        return hostFails(kName, "the library cannot be used", 1);
+    const std::string refused =
+        engine.setLighting(hosts::shadingText(lit->api(), LODESTAR_PROFILE_CORE) + kLighting);
+    if (!refused.empty()) {
+        return core::Error{core::ErrorCode::Internal, "the shading text: " + refused, {}, {}};
     }
-    const int status = draw(call, lodestar);
-    lodestar.api.context_destroy(lodestar.context);
-    return status;
+    const Attached attached(*lit);
+    if (!attached) {
+        return core::Error{core::ErrorCode::NoOpenGl, lit->refusal().what, {}, {}};
+    }
+    const GLuint program = engine.lightingProgram();
+    glUseProgram(program);
+    setView(loaded.view, lit->api(), program);
+    if (lit->api().set_hour(lit->get(), call.hour) != LODESTAR_OK ||
+        attached.gl().update(lit->get()) != LODESTAR_OK || !setLights(attached, program) ||
+        !bindTextures(attached, program)) {
+        return lit->refusal();
+    }
+    return pictureOf(call, engine.draw(loaded.view.clipFromWorld()).data());
 }
 
 } // namespace
 } // namespace lodestar::samples
 
 int main(int argc, char** argv) {
-    const auto call = lodestar::samples::parseHostCall(argc, argv);
-    return call ? lodestar::samples::run(*call)
-                : lodestar::samples::explainHost(lodestar::samples::kName, argc, argv);
+    return lodestar::samples::runHost("lodestar-host-foreign", argc, argv, lodestar::samples::draw);
 }

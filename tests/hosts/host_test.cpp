@@ -134,22 +134,28 @@ TEST(Host, ADocumentsMaterialsStandOverTheFiles) {
     EXPECT_FALSE(passes(byHost(folder, scene, day(plain), "9"), own, "without them"));
 }
 
-TEST(Host, ABrokenDocumentIsSaid) {
+TEST(Host, ADocumentThatCannotLightIsSaid) {
     const TemporaryFolder folder;
     const std::string scene = spheres(folder, 2.2);
-    const std::string broken =
-        folder
-            .write("broken.lodestar.json",
-                   std::string(R"({"lodestar": 1, "lights": [{"kind": "moon", "keys": []}]})"))
-            .string();
     const std::string said = (folder / "said").string();
-    const std::string command = program(LODESTAR_HOST) + " " + scene + " --lighting " + broken +
-                                " -o " + (folder / "x.png").string() + " --size 8x8 2>" + said;
-    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 3);
-    std::ifstream file(said);
-    std::string line;
-    std::getline(file, line);
-    EXPECT_NE(line.find("/lights/0/kind"), std::string::npos) << line;
+    const std::pair<const char*, const char*> cases[] = {
+        {R"({"lodestar": 1, "lights": [{"kind": "moon", "keys": []}]})", "(/lights/0/kind)"},
+        {R"({"lodestar": 1})", "(/lights)"}};
+    for (const auto& [text, place] : cases) {
+        const std::string file = folder.write("broken.lodestar.json", std::string(text)).string();
+        for (const char* host : {LODESTAR_HOST, "lodestar-host-builtin"}) {
+            const std::string command = program(host) + " " + scene + " --lighting " + file +
+                                        " -o " + (folder / "x.png").string() + " --size 8x8 2>" +
+                                        said;
+            EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 3);
+            std::ifstream answer(said);
+            std::string line;
+            std::getline(answer, line);
+            EXPECT_NE(line.find(file), std::string::npos) << line;
+            EXPECT_NE(line.find(place), std::string::npos) << line;
+        }
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "x.png"));
 }
 
 } // namespace

@@ -19,11 +19,10 @@ namespace lodestar::osghost {
 namespace {
 
 /// @param index of the material in its file; io::kNone for that of primitives without one
-bool setMaterial(const io::GltfFile& file, int index, const Lighting& lighting,
+bool setMaterial(const io::GltfFile& file, int index, const hosts::LitContext& lit,
                  osg::StateSet& state) {
     float packed[8];
-    if (!hosts::packMaterial(lighting.api, lighting.context, lighting.document, file, index,
-                             packed)) {
+    if (!hosts::packMaterial(lit, file, index, packed)) {
         return false;
     }
     state.addUniform(new osg::Uniform("material_diffuse",
@@ -64,7 +63,7 @@ osg::Matrixd matrixOf(const io::GltfNode& node) {
     return osg::Matrixd(glm::value_ptr(m)); // both lie column after column for column vectors
 }
 
-osg::ref_ptr<osg::Node> nodeOf(const io::GltfFile& file, int index, const Lighting& lighting) {
+osg::ref_ptr<osg::Node> nodeOf(const io::GltfFile& file, int index, const hosts::LitContext& lit) {
     const io::GltfNode& node = file.nodes[static_cast<std::size_t>(index)];
     osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(matrixOf(node));
     transform->setName(node.name);
@@ -76,8 +75,7 @@ osg::ref_ptr<osg::Node> nodeOf(const io::GltfFile& file, int index, const Lighti
                 continue;
             }
             osg::ref_ptr<osg::Geometry> geometry = geometryOf(primitive);
-            if (!setMaterial(file, primitive.material, lighting,
-                             *geometry->getOrCreateStateSet())) {
+            if (!setMaterial(file, primitive.material, lit, *geometry->getOrCreateStateSet())) {
                 return nullptr;
             }
             geode->addDrawable(geometry);
@@ -85,7 +83,7 @@ osg::ref_ptr<osg::Node> nodeOf(const io::GltfFile& file, int index, const Lighti
         transform->addChild(geode);
     }
     for (const int child : node.children) {
-        const osg::ref_ptr<osg::Node> made = nodeOf(file, child, lighting);
+        const osg::ref_ptr<osg::Node> made = nodeOf(file, child, lit);
         if (!made) {
             return nullptr;
         }
@@ -96,11 +94,11 @@ osg::ref_ptr<osg::Node> nodeOf(const io::GltfFile& file, int index, const Lighti
 
 } // namespace
 
-osg::ref_ptr<osg::Group> sceneOf(const io::GltfFile& file, const Lighting& lighting) {
+osg::ref_ptr<osg::Group> sceneOf(const io::GltfFile& file, const hosts::LitContext& lit) {
     osg::ref_ptr<osg::Group> root = new osg::Group;
     if (file.defaultScene != io::kNone) {
         for (const int index : file.scenes[static_cast<std::size_t>(file.defaultScene)].roots) {
-            const osg::ref_ptr<osg::Node> made = nodeOf(file, index, lighting);
+            const osg::ref_ptr<osg::Node> made = nodeOf(file, index, lit);
             if (!made) {
                 return nullptr;
             }

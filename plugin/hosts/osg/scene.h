@@ -7,23 +7,16 @@
 #include <osg/Group>
 #include <osg/Program>
 
-#include <lodestar/lodestar.h>
-
+#include "hosts/lit_context.h"
 #include "io/gltf.h"
 
 namespace lodestar::osghost {
 
-/// A document whose materials stand over a file's.
-struct Lighting {
-    const LodestarApi& api;
-    LodestarContext* context;
-    LodestarDocument document;
-};
-
 /// The default scene of a file, Y up. Each geometry's StateSet has the uniforms `material_diffuse`
-/// (w: Blinn-Phong exponent) and `material_f0`. Null if the library refuses a material, as
-/// last_error says.
-[[nodiscard]] osg::ref_ptr<osg::Group> sceneOf(const io::GltfFile& file, const Lighting& lighting);
+/// (w: Blinn-Phong exponent) and `material_f0`, the document's standing over the file's. Null if
+/// the library refuses a material, as LitContext::refusal says.
+[[nodiscard]] osg::ref_ptr<osg::Group> sceneOf(const io::GltfFile& file,
+                                               const hosts::LitContext& lit);
 
 /// What shades it: hosts::shadingText over the uniforms of `Lights`, filmic curve and sRGB as
 /// `lodestar render` shows them.

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+//
+// A context of the library that a lighting document lights.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <lodestar/lodestar.h>
+
+#include "core/result.h"
+
+namespace lodestar::hosts {
+
+/// Move-only; used on the thread that opened it. Ends its context with itself.
+class LitContext {
+public:
+    /// @errors InputRefused naming the file and the JSON pointer, also where it has no light;
+    /// Internal if the library and its header do not fit
+    [[nodiscard]] static core::Result<LitContext> open(const std::string& file);
+
+    [[nodiscard]] const LodestarApi& api() const { return api_; }
+    [[nodiscard]] LodestarContext* get() const { return context_.get(); }
+    [[nodiscard]] LodestarDocument document() const { return document_; }
+    /// What the library refused last.
+    [[nodiscard]] core::Error refusal() const;
+
+private:
+    using Owned = std::unique_ptr<LodestarContext, LodestarStatus (*)(LodestarContext*)>;
+    LitContext(const LodestarApi& api, Owned context) : api_(api), context_(std::move(context)) {}
+
+    LodestarApi api_;
+    Owned context_;
+    LodestarDocument document_ = 0;
+};
+
+} // namespace lodestar::hosts
