@@ -19,35 +19,16 @@ constexpr double kMaxExponent = 1e7;
 /// The document's environment, its source below the document's own folder.
 core::Result<DistantLight> documentEnvironment(const OpenedDocument& opened, int cubeWidth) {
     const document::Environment& wanted = *opened.document.environment;
-    std::string source = wanted.source;
-    if (!lighting::isAnalytic(source)) {
-        const std::filesystem::path path(source);
-        for (const std::filesystem::path& part : path) {
-            if (path.is_absolute() || part == "..") {
-                return core::inFile(core::refused("a source lies in the document's folder or below",
-                                                  "/environment/source"),
-                                    opened.file);
-            }
-        }
-        source = (std::filesystem::path(opened.file).parent_path() / path).string();
+    const auto source = io::environmentSource(wanted.source, opened.file);
+    if (!source) {
+        return source.error();
     }
-    auto loaded = io::loadEnvironment(source, cubeWidth);
+    auto loaded = io::loadEnvironment(*source, cubeWidth);
     if (!loaded) {
-        return core::inFile(loaded.error(), source);
+        return core::inFile(loaded.error(), *source);
     }
-    if (wanted.rotation != 0.0) {
-        loaded->base = io::turned(loaded->base, glm::angleAxis(static_cast<float>(wanted.rotation),
-                                                               glm::vec3(0.0f, 1.0f, 0.0f)));
-    }
-    if (wanted.ev != 0.0) {
-        const auto factor = static_cast<float>(std::exp2(wanted.ev));
-        for (glm::vec4& texel : loaded->base.level(0)) {
-            texel = glm::vec4(glm::min(glm::vec3(texel) * factor,
-                                       glm::vec3(static_cast<float>(lighting::kMaxRadiance))),
-                              texel.a);
-        }
-    }
-    return DistantLight{source, std::move(*loaded)};
+    loaded->base = lighting::placed(std::move(loaded->base), wanted.rotation, wanted.ev);
+    return DistantLight{*source, std::move(*loaded)};
 }
 
 void apply(const document::Material& from, io::GltfMaterial& material, core::Tally& warnings) {
@@ -133,7 +114,8 @@ void applyMaterials(const document::Document& document, scene::Scene& scene,
         bool found = false;
         for (std::size_t i = 0; i < scene.materials.size(); ++i) {
             io::GltfMaterial& target = scene.materials[i];
-            if ((!target.name.empty() && target.name == name) || name == "#" + std::to_string(i)) {
+            if ((!target.name.empty() && target.name == name) ||
+                name == std::string("#").append(std::to_string(i))) {
                 apply(material, target, warnings);
                 found = true;
             }

@@ -25,11 +25,8 @@ void Viewer::takeLights(std::vector<lighting::DayLight> lights) {
 
 /// A panorama that is chosen by hand is meant to be seen: no sky stands in its place.
 void Viewer::dropReplacingSkies() {
-    const auto replaces = [](const lighting::DayLight& light) {
-        return light.kind == lighting::LightKind::Sky && !light.add;
-    };
-    if (std::any_of(lights_.begin(), lights_.end(), replaces)) {
-        std::erase_if(lights_, replaces);
+    if (std::any_of(lights_.begin(), lights_.end(), lighting::replacesEnvironment)) {
+        std::erase_if(lights_, lighting::replacesEnvironment);
         takeLights(std::move(lights_));
     }
 }

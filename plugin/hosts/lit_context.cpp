@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "hosts/lit_context.h"
 
+#include <vector>
+
+#include "io/document_file.h"
+#include "io/environment_file.h"
 #include "io/file.h"
 
 namespace lodestar::hosts {
@@ -23,12 +27,53 @@ core::Result<LitContext> LitContext::open(const std::string& file) {
         api.document_apply(context, result.document_) != LODESTAR_OK) {
         return core::inFile(result.refusal(), file);
     }
+    if (auto taken = result.takeEnvironment(file); !taken) {
+        return taken.error();
+    }
     std::size_t lights = 0;
     api.lights(context, nullptr, &lights);
-    if (lights == 0) {
-        return core::inFile(core::refused("has neither a sky nor a sun", "/lights"), file);
+    if (lights == 0 && result.environment_ == 0) {
+        return core::inFile(core::refused("has neither a light nor an environment", "/lights"),
+                            file);
     }
     return result;
+}
+
+core::Result<void> LitContext::takeEnvironment(const std::string& file) {
+    std::size_t size = 0;
+    LodestarEnvironmentDesc desc{};
+    if (api_.document_environment(get(), document_, nullptr, &size, nullptr, nullptr) !=
+        LODESTAR_MORE) {
+        return {};
+    }
+    std::string text(size, '\0');
+    if (api_.document_environment(get(), document_, text.data(), &size, &desc.rotation, &desc.ev) !=
+        LODESTAR_OK) {
+        return core::inFile(refusal(), file);
+    }
+    text.resize(size - 1);
+    const auto source = io::environmentSource(text, file);
+    if (!source) {
+        return source.error();
+    }
+    const auto loaded = io::loadEnvironment(*source);
+    if (!loaded) {
+        return core::inFile(loaded.error(), *source);
+    }
+    const std::vector<glm::vec4>& texels = loaded->base.level(0);
+    const auto width = static_cast<std::uint32_t>(loaded->base.width());
+    desc.struct_size = sizeof desc;
+    desc.layout = LODESTAR_CUBE;
+    desc.name = source->c_str();
+    desc.pixels = &texels.front().x;
+    desc.width = desc.face_width = width;
+    desc.height = 6 * width;
+    desc.channels = 4;
+    if (api_.environment_create(get(), &desc, &environment_) != LODESTAR_OK ||
+        api_.set_environment(get(), environment_) != LODESTAR_OK) {
+        return core::inFile(refusal(), file);
+    }
+    return {};
 }
 
 core::Error LitContext::refusal() const {

@@ -15,6 +15,7 @@ namespace lodestar::hosts {
 /// Move-only; used on the thread that opened it. Ends its context with itself.
 class LitContext {
 public:
+    /// Its environment's file is read from the document's folder or below.
     /// @errors InputRefused naming the file and the JSON pointer, also where it has no light;
     /// Internal if the library and its header do not fit
     [[nodiscard]] static core::Result<LitContext> open(const std::string& file);
@@ -28,10 +29,12 @@ public:
 private:
     using Owned = std::unique_ptr<LodestarContext, LodestarStatus (*)(LodestarContext*)>;
     LitContext(const LodestarApi& api, Owned context) : api_(api), context_(std::move(context)) {}
+    [[nodiscard]] core::Result<void> takeEnvironment(const std::string& file);
 
     LodestarApi api_;
     Owned context_;
     LodestarDocument document_ = 0;
+    LodestarEnvironment environment_ = 0;
 };
 
 } // namespace lodestar::hosts

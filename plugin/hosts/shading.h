@@ -1,30 +1,25 @@
 // SPDX-License-Identifier: MIT
 //
-// A shading text for hosts that keep the lights' texels in three array textures, a layer a light.
+// The library's shading text and the uniforms it reads, for hosts in C++.
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <lodestar/lodestar.h>
 
 namespace lodestar::hosts {
 
-/// Most lights of the text's uniform array; a host's further ones are left out.
-inline constexpr int kMaxLights = 32;
-
-/// GLSL 330 without a version line: the library's, answers to its hooks, and
-/// `vec3 lodestar_lights(LodestarSurface)`, the radiance that leaves a surface under all lights. It
-/// reads the samplers `lodestar_maps`, `lodestar_lamberts`, `lodestar_gradients` and the uniforms
-/// `lodestar_count`, `lodestar_axes` (xyz unit; w: layer), `lodestar_mapSize`, `lodestar_mapRows`.
-/// @param profile LODESTAR_PROFILE_*
+/// "plugin/lighting.glsl" with plain uniforms, and the filmic curve and sRGB as `lodestar render`
+/// shows them: GLSL 330 without a version line. @param profile LODESTAR_PROFILE_*
 [[nodiscard]] std::string shadingText(const LodestarApi& api, std::int32_t profile);
 
-/// `lodestar_mapSize` and `lodestar_mapRows`.
-struct MapUniforms {
-    float size[4];
-    float rows[4];
-};
-[[nodiscard]] MapUniforms mapUniforms(const LodestarMapLayout& layout);
+/// All that the text reads.
+[[nodiscard]] std::vector<LodestarUniform> uniforms(const LodestarApi& api);
+
+/// The data of a plan's uniforms, at their offsets; empty if there is no such plan.
+[[nodiscard]] std::vector<unsigned char> uniformData(const LodestarApi& api,
+                                                     LodestarContext* context, LodestarPlan plan);
 
 } // namespace lodestar::hosts

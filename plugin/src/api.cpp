@@ -69,9 +69,16 @@ LodestarStatus contextDestroy(LodestarContext* context) noexcept {
 }
 
 const char* lastError(LodestarContext* context) noexcept {
-    return context == nullptr                          ? creationError
-           : context->magic == LodestarContext::kMagic ? context->error
-                                                       : "no such context";
+    if (context == nullptr) {
+        return creationError;
+    }
+    if (!lives(context)) {
+        return "no such context";
+    }
+    const std::thread::id here = std::this_thread::get_id();
+    return here == context->thread     ? context->error
+           : here == context->glThread ? context->glError
+                                       : "another thread's";
 }
 
 /// What light_create and light_update share.
@@ -275,15 +282,6 @@ LodestarStatus lightState(LodestarContext* context, LodestarLight handle,
     });
 }
 
-std::vector<float> withAlpha(const std::vector<glm::vec3>& radiance) {
-    std::vector<float> texels;
-    texels.reserve(4 * radiance.size());
-    for (const glm::vec3& value : radiance) {
-        texels.insert(texels.end(), {value.r, value.g, value.b, 1.0f});
-    }
-    return texels;
-}
-
 LodestarStatus lightTexels(LodestarContext* context, LodestarLight handle, int32_t which,
                            void* buffer, size_t* size) noexcept {
     return entered(context, [&]() -> LodestarStatus {
@@ -297,14 +295,12 @@ LodestarStatus lightTexels(LodestarContext* context, LodestarLight handle, int32
         if (!(look(*light, context->hour).visibility > 0.0)) {
             return context->fail(LODESTAR_E_ARG, "a sun below the horizon has no texels");
         }
-        const lighting::LightMap::Blend& blend = texelsOf(*light);
-        if (which == LODESTAR_TEXELS_MAP) {
-            return answerQuery(blend.texels.bytes.data(), blend.texels.bytes.size(), 1, buffer,
-                               size);
-        }
-        const std::vector<float> line =
-            withAlpha(which == LODESTAR_TEXELS_LAMBERT ? blend.texels.lambert : blend.gradient);
-        return answerQuery(line.data(), line.size() * sizeof(float), 1, buffer, size);
+        const lighting::LightMap::Blend& blend = *texelsOf(*light);
+        const std::vector<std::uint8_t> bytes = which == LODESTAR_TEXELS_MAP ? blend.texels.bytes
+                                                : which == LODESTAR_TEXELS_LAMBERT
+                                                    ? lighting::LightMap::lambertTexels(blend)
+                                                    : lighting::LightMap::gradientTexels(blend);
+        return answerQuery(bytes.data(), bytes.size(), 1, buffer, size);
     });
 }
 
@@ -322,56 +318,13 @@ LodestarStatus mapLayout(LodestarMapLayout* layout) noexcept {
     return writeStruct(answer, layout) ? LODESTAR_OK : LODESTAR_E_ABI;
 }
 
-/// The sum over lights that shine of what `of` answers for a light and an angle from its axis.
-template <class Of>
-LodestarStatus sumLights(LodestarContext* context, const double direction[3], double rgb[3],
-                         const Of& of) noexcept {
-    return entered(context, [&]() -> LodestarStatus {
-        if (direction == nullptr || rgb == nullptr) {
-            return context->fail(LODESTAR_E_ARG, "no direction, or no place for the answer");
-        }
-        const glm::dvec3 given(direction[0], direction[1], direction[2]);
-        const double length = glm::length(given);
-        if (!(length > 1e-12) || !std::isfinite(length)) {
-            return context->fail(LODESTAR_E_ARG, "a direction has a length");
-        }
-        glm::dvec3 sum(0.0);
-        for (const LodestarLight handle : context->order) {
-            PlacedLight& light = *context->lights.find(handle);
-            const lighting::DayMoment moment = look(light, context->hour);
-            if (moment.visibility > 0.0) {
-                const double theta =
-                    2.0 * std::asin(std::min(0.5 * glm::length(given / length - moment.axis), 1.0));
-                sum += glm::dvec3(of(texelsOf(light), theta));
-            }
-        }
-        for (int i = 0; i < 3; ++i) {
-            rgb[i] = sum[i];
-        }
-        return LODESTAR_OK;
-    });
-}
-
-LodestarStatus radiance(LodestarContext* context, const double direction[3], double exponent,
-                        double rgb[3]) noexcept {
-    return sumLights(
-        context, direction, rgb, [&](const lighting::LightMap::Blend& blend, double theta) {
-            return lighting::rsrmRadiance(blend.texels, blend.gradient, theta, exponent);
-        });
-}
-
-LodestarStatus lambert(LodestarContext* context, const double normal[3], double rgb[3]) noexcept {
-    return sumLights(context, normal, rgb,
-                     [](const lighting::LightMap::Blend& blend, double theta) {
-                         return lighting::rsrmLambert(blend.texels, theta);
-                     });
-}
-
 /// The first line of a dialect; empty: there is no such one.
 std::string versionLine(const LodestarDialect& dialect) {
     const std::uint32_t v = dialect.version;
     if (dialect.profile == LODESTAR_PROFILE_ES) {
-        return v == 300 ? "#version 300 es\nprecision highp float;\nprecision highp int;\n" : "";
+        return v == 300 ? "#version 300 es\nprecision highp float;\nprecision highp int;\n"
+                          "precision highp sampler2DArray;\nprecision highp samplerCube;\n"
+                        : "";
     }
     if (v != 330 && v != 410 && v != 450) {
         return {};
@@ -394,8 +347,10 @@ LodestarStatus glslText(const char* file, const LodestarDialect* dialect, char* 
     try {
         const std::string first = versionLine(given);
         const std::string name(file);
-        auto text = gl::assembleShader(name, 330, {});
-        if (first.empty() || !name.starts_with("lodestar/") || !text) {
+        const gl::Defines block{{"LODESTAR_UNIFORM_BLOCK", "1"}};
+        auto text = gl::assembleShader(name, 330, given.uniform_block != 0 ? block : gl::Defines{});
+        const bool known = name.starts_with("lodestar/") || name.starts_with("plugin/");
+        if (first.empty() || !known || !text) {
             return LODESTAR_E_UNSUPPORTED;
         }
         const std::string whole = (given.without_version_line != 0 ? std::string() : first) +
@@ -412,28 +367,33 @@ const void* getExtension(const char* id) noexcept {
     return id != nullptr && std::strcmp(id, LODESTAR_EXTENSION_GL) == 0 ? glApi() : nullptr;
 }
 
-constexpr LodestarApi kApi{sizeof(LodestarApi),
-                           LODESTAR_ABI_VERSION,
-                           contextCreate,
-                           contextDestroy,
-                           lastError,
-                           lightCreate,
-                           lightUpdate,
-                           lightDestroy,
-                           lights,
-                           documentLoad,
-                           documentApply,
-                           documentDestroy,
-                           setHour,
-                           lightState,
-                           lightTexels,
-                           mapLayout,
-                           radiance,
-                           lambert,
-                           glslText,
-                           getExtension,
-                           documentMaterial,
-                           materialPack};
+LodestarApi table() {
+    LodestarApi api{};
+    api.struct_size = sizeof api;
+    api.abi_version = LODESTAR_ABI_VERSION;
+    api.context_create = contextCreate;
+    api.context_destroy = contextDestroy;
+    api.last_error = lastError;
+    api.light_create = lightCreate;
+    api.light_update = lightUpdate;
+    api.light_destroy = lightDestroy;
+    api.lights = lights;
+    api.document_load = documentLoad;
+    api.document_apply = documentApply;
+    api.document_destroy = documentDestroy;
+    api.document_material = documentMaterial;
+    api.material_pack = materialPack;
+    api.set_hour = setHour;
+    api.light_state = lightState;
+    api.light_texels = lightTexels;
+    api.map_layout = mapLayout;
+    api.glsl_text = glslText;
+    api.get_extension = getExtension;
+    addLookupApi(api);
+    addEnvironmentApi(api);
+    addPlanApi(api);
+    return api;
+}
 
 } // namespace
 } // namespace lodestar::plugin
@@ -447,8 +407,9 @@ LodestarStatus lodestar_get_api(uint32_t host_abi, LodestarApi* api) {
         return LODESTAR_E_ABI;
     }
     core::setContractHandler(plugin::throwContract);
-    const uint32_t size = std::min<uint32_t>(api->struct_size, sizeof plugin::kApi);
-    std::memcpy(api, &plugin::kApi, size);
+    const LodestarApi whole = plugin::table();
+    const uint32_t size = std::min<uint32_t>(api->struct_size, sizeof whole);
+    std::memcpy(api, &whole, size);
     api->struct_size = size;
     return LODESTAR_OK;
 }

@@ -14,8 +14,9 @@ void LodestarContext::log(const lodestar::core::Tally& warnings) const {
 }
 
 LodestarStatus LodestarContext::fail(LodestarStatus status, const char* what) {
-    std::snprintf(error, sizeof error, "%s", what);
-    log(LODESTAR_LOG_REFUSED, error);
+    char(&words)[512] = thread == std::this_thread::get_id() ? error : glError;
+    std::snprintf(words, sizeof words, "%s", what);
+    log(LODESTAR_LOG_REFUSED, words);
     return status;
 }
 

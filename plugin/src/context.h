@@ -3,6 +3,7 @@
 // What a context holds, and how each function of the table is entered and left.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -16,10 +17,12 @@
 #include "core/result.h"
 #include "core/tally.h"
 #include "document/document.h"
-#include "gl_lights.h"
+#include "environments.h"
+#include "gl_textures.h"
 #include "lighting/light_map.h"
 #include "lodestar/lodestar.h"
 #include "memory.h"
+#include "plans.h"
 
 namespace lodestar::plugin {
 
@@ -56,6 +59,16 @@ public:
         return true;
     }
 
+    /// Calls `with` a handle and its thing, for each.
+    template <class With>
+    void each(With&& with) const {
+        for (std::size_t i = 0; i < slots_.size(); ++i) {
+            if (slots_[i].value) {
+                with(std::uint64_t{slots_[i].generation} << 32 | (i + 1), *slots_[i].value);
+            }
+        }
+    }
+
 private:
     struct Slot {
         std::uint32_t generation = 1;
@@ -69,8 +82,9 @@ struct PlacedLight {
     lighting::LightMap map;
     lighting::LightMap::Content content{};  ///< at the hour last looked at
     std::uint64_t version = 1;              ///< of that content
+    std::uint64_t planned = 0;              ///< the version that a plan last asked for
     std::optional<std::uint64_t> blended{}; ///< the version that the blend is of
-    lighting::LightMap::Blend blend{};
+    std::shared_ptr<const lighting::LightMap::Blend> blend{};
 };
 
 /// A failed call: what is returned, and why in words.
@@ -94,8 +108,16 @@ struct LodestarContext {
     lodestar::plugin::Slots<lodestar::plugin::PlacedLight> lights;
     std::vector<LodestarLight> order; ///< as made
     lodestar::plugin::Slots<lodestar::document::Document> documents;
+    lodestar::plugin::Slots<lodestar::plugin::PlacedEnvironment> environments;
+    LodestarEnvironment environment = 0; ///< the distant one
     double hour = 15.0;
-    std::unique_ptr<lodestar::plugin::GlLights> gl; ///< while attached
+    lodestar::plugin::PlannedEnvironment planned;
+    lodestar::plugin::PlanRing plans;
+
+    /// The [gl] thread's: textures while attached, and what it was told last.
+    std::atomic<std::thread::id> glThread{};
+    std::unique_ptr<lodestar::plugin::GlTextures> gl;
+    char glError[512] = "";
 
     void log(std::int32_t number, const char* text) const {
         if (host.log != nullptr) {
@@ -103,32 +125,43 @@ struct LodestarContext {
         }
     }
     void log(const lodestar::core::Tally& warnings) const;
-    /// Notes what is wrong and returns the status.
+    /// Notes what is wrong, for the thread that it is said to, and returns the status.
     LodestarStatus fail(LodestarStatus status, const char* what);
     LodestarStatus fail(LodestarStatus status, const lodestar::core::Error& error);
 };
 
 namespace lodestar::plugin {
 
-/// Runs a [main] function's body: with the host's memory, on the right thread; no exception leaves.
+/// Runs a function's body with the host's memory; no exception leaves.
 template <class Body>
-LodestarStatus entered(LodestarContext* context, Body&& body) noexcept {
-    if (context == nullptr || context->magic != LodestarContext::kMagic) {
-        return LODESTAR_E_ARG;
-    }
-    if (context->thread != std::this_thread::get_id()) {
-        return LODESTAR_E_THREAD; // the text of the other thread's last error is left alone
-    }
-    const AllocatorScope scope(context->allocator);
+LodestarStatus guarded(LodestarContext& context, Body&& body) noexcept {
+    const AllocatorScope scope(context.allocator);
     try {
         return body();
     } catch (const std::bad_alloc&) {
-        return context->fail(LODESTAR_E_NOMEM, "the host's allocator has no memory");
+        return context.fail(LODESTAR_E_NOMEM, "the host's allocator has no memory");
     } catch (const std::exception& error) {
-        return context->fail(LODESTAR_E_STATE, error.what());
+        return context.fail(LODESTAR_E_STATE, error.what());
     } catch (...) {
-        return context->fail(LODESTAR_E_STATE, "an unknown failure");
+        return context.fail(LODESTAR_E_STATE, "an unknown failure");
     }
+}
+
+/// Whether it is a context that lives.
+[[nodiscard]] inline bool lives(const LodestarContext* context) {
+    return context != nullptr && context->magic == LodestarContext::kMagic;
+}
+
+/// Runs a [main] function's body, on the right thread. The text of another thread's last error is
+/// left alone.
+template <class Body>
+LodestarStatus entered(LodestarContext* context, Body&& body) noexcept {
+    if (!lives(context)) {
+        return LODESTAR_E_ARG;
+    }
+    return context->thread == std::this_thread::get_id()
+               ? guarded(*context, std::forward<Body>(body))
+               : LODESTAR_E_THREAD;
 }
 
 /// Reads a host's struct, whose size may be another version's. @return false if it is null, too
@@ -187,6 +220,11 @@ void standOver(const document::Material& from, LodestarMaterial& material, core:
 /// A light at the context's hour; its version follows its content.
 [[nodiscard]] lighting::DayMoment look(PlacedLight& light, double hour);
 /// Its texels, made when they are first asked for. @pre looked at
-[[nodiscard]] const lighting::LightMap::Blend& texelsOf(PlacedLight& light);
+[[nodiscard]] const std::shared_ptr<const lighting::LightMap::Blend>& texelsOf(PlacedLight& light);
+
+/// Members of the table that have files of their own.
+void addEnvironmentApi(LodestarApi& api);
+void addLookupApi(LodestarApi& api);
+void addPlanApi(LodestarApi& api);
 
 } // namespace lodestar::plugin

@@ -6,89 +6,122 @@
 namespace lodestar::plugin {
 namespace {
 
-LodestarStatus notAttached(LodestarContext& context) {
-    return context.fail(LODESTAR_E_ARG, "no OpenGL context is attached");
+/// Runs a [gl] function's body on the thread that attached.
+template <class Body>
+LodestarStatus attached(LodestarContext* context, Body&& body) noexcept {
+    if (!lives(context)) {
+        return LODESTAR_E_ARG;
+    }
+    const std::thread::id gl = context->glThread;
+    if (gl == std::thread::id()) {
+        return context->thread == std::this_thread::get_id()
+                   ? context->fail(LODESTAR_E_ARG, "no OpenGL context is attached")
+                   : LODESTAR_E_ARG;
+    }
+    return gl == std::this_thread::get_id() ? guarded(*context, std::forward<Body>(body))
+                                            : LODESTAR_E_THREAD;
 }
 
 LodestarStatus attach(LodestarContext* context, void* (*getProcedure)(const char*)) noexcept {
-    return entered(context, [&]() -> LodestarStatus {
-        if (getProcedure == nullptr || context->gl) {
-            return context->fail(LODESTAR_E_ARG,
-                                 "no way to ask for functions, or attached already");
+    if (!lives(context)) {
+        return LODESTAR_E_ARG;
+    }
+    // From here on what fails is this thread's; a second attachment is refused, whoever makes it.
+    std::thread::id none;
+    if (!context->glThread.compare_exchange_strong(none, std::this_thread::get_id())) {
+        return none == std::this_thread::get_id()
+                   ? context->fail(LODESTAR_E_ARG, "an OpenGL context is attached already")
+                   : LODESTAR_E_THREAD;
+    }
+    const LodestarStatus status = guarded(*context, [&]() -> LodestarStatus {
+        if (getProcedure == nullptr) {
+            return context->fail(LODESTAR_E_ARG, "no way to ask for functions");
         }
         GlFunctions functions;
         if (!functions.load(getProcedure)) {
             return context->fail(LODESTAR_E_UNSUPPORTED,
                                  "OpenGL 3.3 is needed, or a function of it is missing");
         }
-        context->gl = std::make_unique<GlLights>(functions);
+        context->gl = std::make_unique<GlTextures>(functions);
         return LODESTAR_OK;
     });
+    if (status != LODESTAR_OK) {
+        context->glThread = std::thread::id();
+    }
+    return status;
 }
 
 LodestarStatus detach(LodestarContext* context, int32_t alive) noexcept {
-    return entered(context, [&]() -> LodestarStatus {
-        if (!context->gl) {
-            return notAttached(*context);
-        }
+    return attached(context, [&]() -> LodestarStatus {
         if (alive != 0) {
             context->gl->destroy();
         }
         context->gl.reset();
+        context->glThread = std::thread::id();
         return LODESTAR_OK;
     });
 }
 
-LodestarStatus update(LodestarContext* context) noexcept {
-    return entered(context, [&]() -> LodestarStatus {
-        if (!context->gl) {
-            return notAttached(*context);
+LodestarStatus execute(LodestarContext* context, LodestarPlan plan) noexcept {
+    return attached(context, [&]() -> LodestarStatus {
+        const std::shared_ptr<const Packet> packet = context->plans.find(plan);
+        if (!packet) {
+            return context->fail(LODESTAR_E_ARG, "no such plan, or four have been made since");
         }
-        context->gl->update(*context);
+        context->gl->execute(*packet);
         return LODESTAR_OK;
     });
 }
 
-LodestarStatus texture(LodestarContext* context, int32_t which, LodestarGlTexture* into) noexcept {
-    return entered(context, [&]() -> LodestarStatus {
-        if (!context->gl) {
-            return notAttached(*context);
-        }
-        if (which < 0 || which >= kTexelKinds) {
+LodestarStatus texture(LodestarContext* context, int32_t texels, LodestarGlTexture* into) noexcept {
+    return attached(context, [&]() -> LodestarStatus {
+        if (texels < 0 || texels >= kTexelKinds) {
             return context->fail(LODESTAR_E_ARG, "no such texels");
         }
-        return writeStruct(context->gl->texture(which), into)
+        return writeStruct(context->gl->texture(texels), into)
                    ? LODESTAR_OK
                    : context->fail(LODESTAR_E_ABI, "the texture's struct_size is none");
     });
 }
 
-LodestarStatus layer(LodestarContext* context, LodestarLight light, uint32_t* layer) noexcept {
-    return entered(context, [&]() -> LodestarStatus {
-        if (!context->gl) {
-            return notAttached(*context);
+LodestarStatus readCube(LodestarContext* context, uint32_t name, float* rgba,
+                        size_t* size) noexcept {
+    return attached(context, [&]() -> LodestarStatus {
+        if (size == nullptr) {
+            return context->fail(LODESTAR_E_ARG, "no place for the size");
         }
-        const int found = context->gl->layer(light);
-        if (layer == nullptr || found < 0) {
-            return context->fail(LODESTAR_E_ARG, "no place for the layer, or the light has none");
+        const int width = context->gl->cubeWidth(name);
+        if (width == 0) {
+            return context->fail(LODESTAR_E_ARG, "no cube texture whose faces have level 0");
         }
-        *layer = static_cast<std::uint32_t>(found);
+        const auto w = static_cast<std::size_t>(width);
+        const std::size_t room = *size;
+        *size = 6 * w * w * 4 * sizeof(float);
+        if (rgba == nullptr || room < *size) {
+            return LODESTAR_MORE;
+        }
+        context->gl->readCube(name, width, rgba);
         return LODESTAR_OK;
     });
 }
 
 LodestarStatus setHostResets(LodestarContext* context, int32_t resets) noexcept {
-    return entered(context, [&]() -> LodestarStatus {
-        if (!context->gl) {
-            return notAttached(*context);
-        }
+    return attached(context, [&]() -> LodestarStatus {
         context->gl->setHostResets(resets != 0);
         return LODESTAR_OK;
     });
 }
 
-constexpr LodestarGlApi kApi{sizeof(LodestarGlApi), 0, attach, detach, update, texture, layer,
-                             setHostResets};
+LodestarStatus work(LodestarContext* context, LodestarWork* into) noexcept {
+    return attached(context, [&]() -> LodestarStatus {
+        return writeStruct(context->gl->work(), into)
+                   ? LODESTAR_OK
+                   : context->fail(LODESTAR_E_ABI, "the work's struct_size is none");
+    });
+}
+
+constexpr LodestarGlApi kApi{sizeof(LodestarGlApi), 0,   attach, detach, execute, texture, readCube,
+                             setHostResets,         work};
 
 } // namespace
 

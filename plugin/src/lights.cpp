@@ -55,6 +55,7 @@ core::Result<lighting::DayLight> lightOf(const LodestarLightDesc& desc, core::Ta
     light.kind = desc.kind == LODESTAR_SKY ? lighting::LightKind::Sky : lighting::LightKind::Sun;
     light.name = desc.name != nullptr ? desc.name : "";
     light.axis = vectorOf(desc.axis);
+    light.add = desc.add != 0;
     if (desc.has_path != 0) {
         light.path =
             lighting::SunPath{glm::radians(desc.latitude), desc.day_of_year, vectorOf(desc.north)};
@@ -88,9 +89,10 @@ lighting::DayMoment look(PlacedLight& light, double hour) {
     return moment;
 }
 
-const lighting::LightMap::Blend& texelsOf(PlacedLight& light) {
+const std::shared_ptr<const lighting::LightMap::Blend>& texelsOf(PlacedLight& light) {
     if (light.blended != light.version) {
-        light.blend = light.map.blend(light.content);
+        light.blend =
+            std::make_shared<const lighting::LightMap::Blend>(light.map.blend(light.content));
         light.blended = light.version;
     }
     return light.blend;

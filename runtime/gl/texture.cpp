@@ -10,15 +10,11 @@
 
 #include <epoxy/gl.h>
 
-#include "core/half.h"
+#include "lighting/cube_texels.h"
 #include "lodestar/display.glsl"
 
 namespace lodestar::gl {
 namespace {
-
-constexpr float kLargestHalf = 65504.0f;
-/// Beyond this scale dark texels lose digits in a half float; such maps are stored as floats.
-constexpr float kLargestHalfScale = 64.0f;
 
 GLint glWrap(Wrap wrap) {
     switch (wrap) {
@@ -67,29 +63,15 @@ void setLabel(const Device& device, unsigned id, const char* label) {
     }
 }
 
-/// Uploads the six faces of one level; returns the bytes sent.
-std::size_t uploadLevel(const lighting::Cubemap& map, int level, bool half, float factor) {
-    const std::vector<glm::vec4>& texels = map.level(level);
-    const auto width = static_cast<std::size_t>(map.width(level));
-    std::vector<std::uint16_t> halves;
-    if (half) {
-        halves.reserve(texels.size() * 4);
-        for (const glm::vec4& texel : texels) {
-            for (const float value :
-                 {texel.r * factor, texel.g * factor, texel.b * factor, texel.a}) {
-                halves.push_back(core::halfFromFloat(value));
-            }
-        }
-    }
+/// Uploads the six faces of one level.
+void uploadLevel(const lighting::CubeTexels& cube, int level) {
+    const std::vector<std::uint8_t>& bytes = cube.levels[static_cast<std::size_t>(level)];
+    const GLsizei width = std::max(1, cube.width >> level);
     for (std::size_t face = 0; face < 6; ++face) {
-        const std::size_t first = face * width * width;
-        const void* data = half ? static_cast<const void*>(&halves[4 * first]) : &texels[first];
         glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + static_cast<GLenum>(face), level,
-                     half ? GL_RGBA16F : GL_RGBA32F, static_cast<GLsizei>(width),
-                     static_cast<GLsizei>(width), 0, GL_RGBA, half ? GL_HALF_FLOAT : GL_FLOAT,
-                     data);
+                     cube.half ? GL_RGBA16F : GL_RGBA32F, width, width, 0, GL_RGBA,
+                     cube.half ? GL_HALF_FLOAT : GL_FLOAT, &bytes[face * (bytes.size() / 6)]);
     }
-    return texels.size() * (half ? 8u : 16u);
 }
 
 /// sRGB samples as linear ones of as many bits; alpha is kept.
@@ -203,25 +185,18 @@ core::Result<Texture> Texture::make2D(Device& device, const core::Texels& texels
 core::Result<Texture> Texture::makeCube(Device& device, const lighting::Cubemap& map,
                                         const char* label) {
     LODESTAR_EXPECT(!map.empty(), "a cube texture takes a map with at least one level");
-    float largest = 0.0f;
-    for (int level = 0; level < map.levelCount(); ++level) {
-        for (const glm::vec4& texel : map.level(level)) {
-            largest = std::max({largest, texel.r, texel.g, texel.b});
-        }
-    }
+    const lighting::CubeTexels cube = lighting::cubeTexels(map);
     Texture texture(device, GL_TEXTURE_CUBE_MAP);
     texture.width_ = map.width();
     texture.levelCount_ = map.levelCount();
-    texture.scale_ =
-        largest > kLargestHalf ? std::exp2(std::ceil(std::log2(largest / kLargestHalf))) : 1.0f;
-    const bool half = texture.scale_ <= kLargestHalfScale;
-    texture.scale_ = half ? texture.scale_ : 1.0f;
+    texture.scale_ = cube.scale;
     glBindTexture(GL_TEXTURE_CUBE_MAP, texture.id_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     for (int level = 0; level < map.levelCount(); ++level) {
-        texture.bytes_ += uploadLevel(map, level, half, 1.0f / texture.scale_);
-        device.counters().texelsWritten += map.level(level).size();
+        uploadLevel(cube, level);
     }
+    texture.bytes_ = cube.bytes();
+    device.counters().texelsWritten += cube.texels();
     device.counters().uploads += static_cast<std::uint64_t>(6 * map.levelCount());
     device.counters().uploadBytes += texture.bytes_;
     if (auto allocated = checkAllocation(label); !allocated) {

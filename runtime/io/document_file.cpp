@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "io/file.h"
+#include "lighting/environment.h"
 
 namespace lodestar::io {
 
@@ -23,6 +24,22 @@ core::Result<document::Document> loadDocument(const std::filesystem::path& path,
         return core::inFile(parsed.error(), path.string());
     }
     return parsed;
+}
+
+core::Result<std::string> environmentSource(const std::string& source,
+                                            const std::filesystem::path& document) {
+    if (lighting::isAnalytic(source)) {
+        return source;
+    }
+    const std::filesystem::path path(source);
+    for (const std::filesystem::path& part : path) {
+        if (path.is_absolute() || part == "..") {
+            return core::inFile(core::refused("a source lies in the document's folder or below",
+                                              "/environment/source"),
+                                document.string());
+        }
+    }
+    return (document.parent_path() / path).string();
 }
 
 core::Result<void> saveDocument(const std::filesystem::path& path,

@@ -19,6 +19,11 @@ namespace lodestar::io {
 [[nodiscard]] core::Result<document::Document> loadDocument(const std::filesystem::path& path,
                                                             core::Tally& warnings);
 
+/// An environment's source as ENV, from where the program runs: a path lies in the document's
+/// folder or below. @errors InputRefused with the JSON pointer; the error names the document's file
+[[nodiscard]] core::Result<std::string> environmentSource(const std::string& source,
+                                                          const std::filesystem::path& document);
+
 /// Writes the whole document beside the old one, then renames it over: on failure the old one
 /// stays. @errors OutputFailed
 [[nodiscard]] core::Result<void> saveDocument(const std::filesystem::path& path,

@@ -7,8 +7,6 @@
 #include <string>
 #include <string_view>
 
-#include <glm/gtc/quaternion.hpp>
-
 #include "core/image.h"
 #include "core/result.h"
 #include "core/tally.h"
@@ -48,9 +46,5 @@ inline constexpr int kDefaultCubeWidth = 256;
 /// size
 [[nodiscard]] core::Result<LoadedEnvironment> environmentOf(const GltfFile& file, int environment,
                                                             int width = kDefaultCubeWidth);
-
-/// A cube's level 0 turned. @param worldFromEnvironment unit
-[[nodiscard]] lighting::Cubemap turned(const lighting::Cubemap& cube,
-                                       const glm::quat& worldFromEnvironment);
 
 } // namespace lodestar::io

@@ -15,8 +15,6 @@ namespace {
 
 /// Smallest alpha of an RGBD texel: one step of 8 bits.
 constexpr float kLeastAlpha = 1.0f / 255.0f;
-/// Lookups a side of a texel when a cube is turned.
-constexpr int kLookups = 4;
 
 /// A face's radiance: colours / alpha [RGBD], times the intensity.
 core::Image radianceOf(const core::Texels& stored, float intensity) {
@@ -74,31 +72,6 @@ void detail::checkEnvironmentFaces(GltfContext& context) {
     }
 }
 
-lighting::Cubemap turned(const lighting::Cubemap& cube, const glm::quat& worldFromEnvironment) {
-    const glm::quat environmentFromWorld = glm::conjugate(worldFromEnvironment);
-    const int width = cube.width();
-    lighting::Cubemap result(width);
-    const auto place = [&](int texel, int part) {
-        return (static_cast<float>(texel) + (static_cast<float>(part) + 0.5f) / kLookups) /
-                   static_cast<float>(width) * 2.0f -
-               1.0f;
-    };
-    for (int face = 0; face < 6; ++face) {
-        for (int y = 0; y < width; ++y) {
-            for (int x = 0; x < width; ++x) {
-                glm::vec4 sum(0.0f);
-                for (int k = 0; k < kLookups * kLookups; ++k) {
-                    const glm::vec3 world = shader::lodestar_cubeDirection(
-                        face, place(x, k % kLookups), place(y, k / kLookups));
-                    sum += cube.sampleLevel(environmentFromWorld * world, 0);
-                }
-                result.texel(face, x, y) = sum / static_cast<float>(kLookups * kLookups);
-            }
-        }
-    }
-    return result;
-}
-
 core::Result<LoadedEnvironment> environmentOf(const GltfFile& file, int environment, int width) {
     const GltfEnvironment& light = file.environments[static_cast<std::size_t>(environment)];
     core::Result<void> good = checkFaces(file, static_cast<std::size_t>(environment));
@@ -115,7 +88,7 @@ core::Result<LoadedEnvironment> environmentOf(const GltfFile& file, int environm
     }
     loaded.base = lighting::cubeFromFaces(faces, width);
     if (std::abs(light.rotation.w) < 1.0f) {
-        loaded.base = turned(loaded.base, light.rotation);
+        loaded.base = lighting::turned(loaded.base, light.rotation);
     }
     return loaded;
 }

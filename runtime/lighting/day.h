@@ -82,6 +82,11 @@ struct DayLight {
     bool add = false; ///< a sky beside the distant environment, not in its place
 };
 
+/// Whether a light is a sky that stands in the distant environment's place.
+[[nodiscard]] inline bool replacesEnvironment(const DayLight& light) {
+    return light.kind == LightKind::Sky && !light.add;
+}
+
 /// A light put in order: hours in [0, 24) ascending, gradients by `repaired`, axes unit, tints and
 /// stops' radiance times the tint in [0, 1e9]. Hours outside are wrapped and counted; of keys at
 /// one hour the last listed holds, the others are counted; a zero or non-finite axis becomes +Y and

@@ -140,6 +140,49 @@ Cubemap cubeFromFaces(const std::array<core::Image, 6>& faces, int width) {
     return n > width ? reduced(cube, width) : magnified(cube, width);
 }
 
+/// Lookups a side of a texel when a cube is turned.
+constexpr int kLookups = 4;
+
+Cubemap turned(const Cubemap& cube, const glm::quat& worldFromEnvironment) {
+    const glm::quat environmentFromWorld = glm::conjugate(worldFromEnvironment);
+    const int width = cube.width();
+    Cubemap result(width);
+    const auto place = [&](int texel, int part) {
+        return (static_cast<float>(texel) + (static_cast<float>(part) + 0.5f) / kLookups) /
+                   static_cast<float>(width) * 2.0f -
+               1.0f;
+    };
+    for (int face = 0; face < 6; ++face) {
+        for (int y = 0; y < width; ++y) {
+            for (int x = 0; x < width; ++x) {
+                glm::vec4 sum(0.0f);
+                for (int k = 0; k < kLookups * kLookups; ++k) {
+                    const glm::vec3 world = shader::lodestar_cubeDirection(
+                        face, place(x, k % kLookups), place(y, k / kLookups));
+                    sum += cube.sampleLevel(environmentFromWorld * world, 0);
+                }
+                result.texel(face, x, y) = sum / static_cast<float>(kLookups * kLookups);
+            }
+        }
+    }
+    return result;
+}
+
+Cubemap placed(Cubemap cube, double rotation, double ev) {
+    if (rotation != 0.0) {
+        cube =
+            turned(cube, glm::angleAxis(static_cast<float>(rotation), glm::vec3(0.0f, 1.0f, 0.0f)));
+    }
+    if (ev != 0.0) {
+        const auto factor = static_cast<float>(std::exp2(ev));
+        for (glm::vec4& texel : cube.level(0)) {
+            texel =
+                glm::vec4(glm::min(glm::vec3(texel) * factor, glm::vec3(kMaxRadiance)), texel.a);
+        }
+    }
+    return cube;
+}
+
 PreparedEnvironment prepare(Cubemap base, const PreparedParts& parts) {
     PreparedEnvironment environment;
     environment.base = std::move(base);

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <variant>
 
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
 #include "core/image.h"
@@ -66,6 +67,13 @@ using AnalyticEnvironment = std::variant<ConstantEnvironment, GradientEnvironmen
 /// Six square faces in GL order, resampled to the width where theirs differs.
 /// @pre six images of one size, square, 3 channels
 [[nodiscard]] Cubemap cubeFromFaces(const std::array<core::Image, 6>& faces, int width);
+
+/// A cube's level 0 turned. @param worldFromEnvironment unit
+[[nodiscard]] Cubemap turned(const Cubemap& cube, const glm::quat& worldFromEnvironment);
+
+/// A cube's level 0 as a document places it: turned about +Y, counter-clockwise seen from above,
+/// its radiance x 2^ev, at most 1e9. @param rotation radians  @param ev [-64, 64]
+[[nodiscard]] Cubemap placed(Cubemap cube, double rotation, double ev);
 
 /// Repairs radiance in place to [0, 1e9]: NaN and negative values become 0, +infinity and larger
 /// values 1e9; each is counted.

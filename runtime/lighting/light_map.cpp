@@ -1,12 +1,33 @@
 // SPDX-License-Identifier: MIT
 #include "lighting/light_map.h"
 
+#include <cmath>
+#include <cstring>
 #include <utility>
+
+#include <glm/vec4.hpp>
+
+#include "core/half.h"
 
 namespace lodestar::lighting {
 
+int lambertColumns(const RsrmLayout& layout) {
+    return layout.fitted ? kLambertColumns : layout.columns;
+}
+
 LightMap::LightMap(DayLight day, const RsrmLayout& layout, std::shared_ptr<RsrmKernels> kernels)
     : day_(std::move(day)), layout_(layout), kernels_(std::move(kernels)), keys_(day_.keys.size()) {
+}
+
+std::uint64_t LightMap::uploadTexels() const {
+    return static_cast<std::uint64_t>(layout_.columns) * static_cast<std::uint64_t>(layout_.rows) +
+           static_cast<std::uint64_t>(lambertColumns(layout_)) + kGradientColumns;
+}
+
+std::uint64_t LightMap::uploadBytes() const {
+    return texelBytes(layout_) +
+           sizeof(glm::vec4) * static_cast<std::uint64_t>(lambertColumns(layout_)) +
+           std::uint64_t{8} * kGradientColumns;
 }
 
 LightMap::Content LightMap::contentOf(const DayMoment& moment) {
@@ -28,6 +49,30 @@ LightMap::Blend LightMap::blend(const Content& content) {
     const Key& to = key(content.to);
     return {encode(layout_, blended(from.bake, to.bake, content.t, content.factor)),
             blended(from.gradient, to.gradient, content.t, content.factor)};
+}
+
+std::vector<std::uint8_t> LightMap::lambertTexels(const Blend& blend) {
+    const std::vector<glm::vec3>& line = blend.texels.lambert;
+    std::vector<std::uint8_t> bytes(line.size() * sizeof(glm::vec4));
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const glm::vec4 texel(line[i], 1.0f);
+        std::memcpy(bytes.data() + i * sizeof texel, &texel, sizeof texel);
+    }
+    return bytes;
+}
+
+std::vector<std::uint8_t> LightMap::gradientTexels(const Blend& blend) {
+    std::vector<std::uint8_t> bytes(blend.gradient.size() * 4 * sizeof(std::uint16_t));
+    std::size_t at = 0;
+    for (const glm::vec3& radiance : blend.gradient) {
+        const float values[] = {radiance.r, radiance.g, radiance.b, 1.0f};
+        for (const float value : values) {
+            const std::uint16_t half = core::halfFromFloat(std::sqrt(value));
+            std::memcpy(bytes.data() + at, &half, sizeof half);
+            at += sizeof half;
+        }
+    }
+    return bytes;
 }
 
 } // namespace lodestar::lighting

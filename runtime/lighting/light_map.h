@@ -4,6 +4,7 @@
 // moment blends the bakes.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -15,6 +16,9 @@
 
 namespace lodestar::lighting {
 
+/// Texels of a layout's line of means over Lambert's lobe.
+[[nodiscard]] int lambertColumns(const RsrmLayout& layout);
+
 class LightMap {
 public:
     /// @param day as `repaired` leaves it  @param kernels shared with other lights; may be null
@@ -23,6 +27,10 @@ public:
 
     [[nodiscard]] const DayLight& day() const { return day_; }
     [[nodiscard]] const RsrmLayout& layout() const { return layout_; }
+
+    /// What uploading a blend takes: texels, and bytes of them as below.
+    [[nodiscard]] std::uint64_t uploadTexels() const;
+    [[nodiscard]] std::uint64_t uploadBytes() const;
 
     /// What a blend depends on: equal contents are equal maps.
     struct Content {
@@ -38,6 +46,11 @@ public:
         std::vector<glm::vec3> gradient;
     };
     [[nodiscard]] Blend blend(const Content& content);
+    /// The line over Lambert's lobe as RGBA floats.
+    [[nodiscard]] static std::vector<std::uint8_t> lambertTexels(const Blend& blend);
+    /// Square roots of the gradient as RGBA half floats: sqrt(1e9) is within their range, and 11
+    /// bits of a root leave the radiance 1e-3.
+    [[nodiscard]] static std::vector<std::uint8_t> gradientTexels(const Blend& blend);
 
 private:
     struct Key {

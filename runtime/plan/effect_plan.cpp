@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "lighting/lookup.h"
+#include "plan/capture_plan.h"
 
 namespace lodestar::plan {
 namespace {
@@ -384,6 +385,7 @@ EffectPlan plan(const PlanInput& input) {
     EffectPlan result;
     const Receivers receivers = visibleReceivers(input);
     planEnvironment(input, receivers, result);
+    planCaptures(input, result);
     planRsrmLights(input, receivers, result);
     planDeformation(input, result);
     planDraws(input, result);

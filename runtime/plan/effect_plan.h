@@ -4,6 +4,7 @@
 // expected cost. A pure function of its input; no GL.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -93,6 +94,13 @@ struct RsrmLightView {
     bool shadowChanged = true;     ///< it or a caster moved since that was drawn
 };
 
+/// A captured environment as the planner sees it.
+struct CaptureView {
+    std::string subject;
+    std::array<bool, 6> missing{}; ///< faces that have been asked for and not been drawn
+    bool complete = true;          ///< it shows what an earlier capture drew
+};
+
 /// Everything the plan depends on.
 struct PlanInput {
     std::vector<DrawView> draws;
@@ -102,6 +110,8 @@ struct PlanInput {
     bool rsrmPublished = false;           ///< the layout of their maps
     double rsrmGreatestExponent = 2048.0; ///< Phong exponent of their maps' last row
     std::uint64_t shadowTexels = 0;       ///< of one shadow map
+    std::vector<CaptureView> captures;
+    int faceBudget = 0; ///< faces captured in a frame, at most
     lighting::Estimator specular = lighting::kDefaultSpecular;
     lighting::Estimator diffuse = lighting::kDefaultDiffuse;
     bool jointsMoved = true;      ///< since they were last uploaded
@@ -144,8 +154,15 @@ struct LitLight {
     bool drawShadow = false; ///< that is drawn in this frame
 };
 
+/// A face to be captured.
+struct CaptureFace {
+    std::size_t capture = 0; ///< into PlanInput::captures
+    int face = 0;            ///< OpenGL's order
+};
+
 struct EffectPlan {
     std::vector<Effect> effects;
+    std::vector<CaptureFace> captureFaces;
     lighting::PreparedParts prepare; ///< parts to make now
     std::vector<std::size_t>
         drawOrder; ///< indices into PlanInput::draws: opaque, then blended back to front
@@ -165,6 +182,9 @@ struct EffectPlan {
     /// Whether an effect of this name runs.
     [[nodiscard]] bool runs(const std::string& effect) const;
 };
+
+/// A plan in words, a line an effect.
+[[nodiscard]] std::string planText(const EffectPlan& plan);
 
 /// Decides a frame. The same input gives the same plan.
 [[nodiscard]] EffectPlan plan(const PlanInput& input);

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "scene/gpu_lights.h"
 
-#include <cmath>
-#include <cstring>
 #include <utility>
 
 #include "core/contract.h"
-#include "core/half.h"
 #include "scene/gpu_scene.h"
 
 namespace lodestar::scene {
@@ -24,36 +21,6 @@ gl::ArrayFormat formatOf(lighting::RsrmEncoding encoding) {
         break;
     }
     return gl::ArrayFormat::Rgba32F;
-}
-
-/// Square roots as half floats: sqrt(1e9) is within their range, and 11 bits of a root leave the
-/// radiance 1e-3.
-std::vector<std::uint8_t> rootsOf(const std::vector<glm::vec3>& gradient) {
-    std::vector<std::uint8_t> bytes(gradient.size() * 8);
-    std::size_t at = 0;
-    for (const glm::vec3& radiance : gradient) {
-        const float values[] = {radiance.r, radiance.g, radiance.b, 1.0f};
-        for (const float value : values) {
-            const std::uint16_t half = core::halfFromFloat(std::sqrt(value));
-            std::memcpy(bytes.data() + at, &half, sizeof half);
-            at += sizeof half;
-        }
-    }
-    return bytes;
-}
-
-std::vector<std::uint8_t> floatsOf(const std::vector<glm::vec3>& radiance) {
-    std::vector<std::uint8_t> bytes(radiance.size() * sizeof(glm::vec4));
-    for (std::size_t i = 0; i < radiance.size(); ++i) {
-        const glm::vec4 texel(radiance[i], 1.0f);
-        std::memcpy(bytes.data() + i * sizeof texel, &texel, sizeof texel);
-    }
-    return bytes;
-}
-
-/// Texels of a layout's line of means over Lambert's lobe.
-int lambertColumns(const lighting::RsrmLayout& layout) {
-    return layout.fitted ? lighting::kLambertColumns : layout.columns;
 }
 
 bool shines(const lighting::DayMoment& moment) {
@@ -92,7 +59,7 @@ bool GpuLights::published() const {
 std::string GpuLights::replacement() const {
     for (std::size_t i = 0; i < lights_.size(); ++i) {
         const lighting::DayLight& day = lights_[i].map.day();
-        if (day.kind == lighting::LightKind::Sky && !day.add) {
+        if (lighting::replacesEnvironment(day)) {
             return day.name.empty() ? "light " + std::to_string(i) : day.name;
         }
     }
@@ -101,9 +68,6 @@ std::string GpuLights::replacement() const {
 
 std::vector<plan::RsrmLightView> GpuLights::describe(double hour) {
     std::vector<plan::RsrmLightView> views;
-    const auto line = static_cast<std::size_t>(lambertColumns(layout_));
-    const std::size_t texels =
-        static_cast<std::size_t>(layout_.columns) * static_cast<std::size_t>(layout_.rows);
     for (std::size_t i = 0; i < lights_.size(); ++i) {
         Light& light = lights_[i];
         light.moment = lighting::momentAt(light.map.day(), hour);
@@ -112,9 +76,8 @@ std::vector<plan::RsrmLightView> GpuLights::describe(double hour) {
             light.map.day().name.empty() ? "light " + std::to_string(i) : light.map.day().name;
         view.shines = shines(light.moment);
         view.changed = light.uploaded != lighting::LightMap::contentOf(light.moment);
-        view.texels = texels + line + lighting::kGradientColumns;
-        view.uploadBytes = lighting::texelBytes(layout_) + sizeof(glm::vec4) * line +
-                           std::size_t{8} * lighting::kGradientColumns;
+        view.texels = light.map.uploadTexels();
+        view.uploadBytes = light.map.uploadBytes();
         view.shadow = light.shadow;
         views.push_back(std::move(view));
     }
@@ -129,7 +92,7 @@ core::Result<void> GpuLights::allocate(gl::Device& device) {
         return maps.error();
     }
     auto lamberts =
-        gl::Texture::makeLineArray(device, lambertColumns(layout_), layers,
+        gl::Texture::makeLineArray(device, lighting::lambertColumns(layout_), layers,
                                    gl::ArrayFormat::Rgba32F, "Lambert's means of the lights");
     if (!lamberts) {
         return lamberts.error();
@@ -151,8 +114,8 @@ void GpuLights::upload(std::size_t index) {
     const lighting::LightMap::Blend blend = light.map.blend(content);
     light.scale = blend.texels.scale;
     maps_.updateLayer(static_cast<int>(index), blend.texels.bytes);
-    lamberts_.updateLayer(static_cast<int>(index), floatsOf(blend.texels.lambert));
-    gradients_.updateLayer(static_cast<int>(index), rootsOf(blend.gradient));
+    lamberts_.updateLayer(static_cast<int>(index), lighting::LightMap::lambertTexels(blend));
+    gradients_.updateLayer(static_cast<int>(index), lighting::LightMap::gradientTexels(blend));
     light.uploaded = content;
 }
 
@@ -176,7 +139,7 @@ void GpuLights::describe(const plan::EffectPlan& plan, blocks::LodestarRsrmLight
                      static_cast<float>(layout_.leastExponent),
                      static_cast<float>(layout_.greatestExponent)};
     block.rsrmTexel = {1.0f / block.rsrmMap.x, 1.0f / block.rsrmMap.y, 0.0f, 0.0f};
-    const float line = static_cast<float>(lambertColumns(layout_));
+    const float line = static_cast<float>(lighting::lambertColumns(layout_));
     block.rsrmRows = {static_cast<float>(lighting::firstOctave(layout_)),
                       static_cast<float>(lighting::rowsPerOctave(layout_)),
                       published() ? 1.0f : (line - 1.0f) / line, published() ? 0.0f : 0.5f / line};

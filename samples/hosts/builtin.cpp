@@ -4,12 +4,32 @@
 // with theirs: a scene under a lighting document, its shadows left to nobody.
 #include "call.h"
 #include "io/document_file.h"
+#include "io/environment_file.h"
 #include "lodestar/display.glsl"
 #include "platform/headless_context.h"
 #include "scene/renderer.h"
 
 namespace lodestar::samples {
 namespace {
+
+core::Result<void> setEnvironment(const document::Document& document, const std::string& file,
+                                  scene::Renderer& renderer) {
+    if (!document.environment) {
+        return {};
+    }
+    const auto source = io::environmentSource(document.environment->source, file);
+    if (!source) {
+        return source.error();
+    }
+    auto loaded = io::loadEnvironment(*source);
+    if (!loaded) {
+        return core::inFile(loaded.error(), *source);
+    }
+    renderer.setEnvironment(*source, lighting::placed(std::move(loaded->base),
+                                                      document.environment->rotation,
+                                                      document.environment->ev));
+    return {};
+}
 
 core::Result<core::Image> draw(const HostCall& call, const HostScene& loaded) {
     core::Tally warnings;
@@ -21,8 +41,9 @@ core::Result<core::Image> draw(const HostCall& call, const HostScene& loaded) {
     if (!lights) {
         return core::inFile(lights.error(), call.lighting);
     }
-    if (lights->empty()) {
-        return core::inFile(core::refused("has neither a sky nor a sun", "/lights"), call.lighting);
+    if (lights->empty() && !document->environment) {
+        return core::inFile(core::refused("has neither a light nor an environment", "/lights"),
+                            call.lighting);
     }
     for (lighting::DayLight& light : *lights) {
         light.visibility = false;
@@ -39,6 +60,9 @@ core::Result<core::Image> draw(const HostCall& call, const HostScene& loaded) {
     auto renderer = scene::Renderer::make(**device, scene);
     if (!renderer) {
         return renderer.error();
+    }
+    if (auto set = setEnvironment(*document, call.lighting, **renderer); !set) {
+        return set.error();
     }
     (*renderer)->setLights(std::move(*lights));
     scene::RenderSettings settings;

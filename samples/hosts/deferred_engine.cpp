@@ -33,11 +33,20 @@ layout(location = 0) out vec4 outPosition; // w: covered
 layout(location = 1) out vec4 outNormal;
 layout(location = 2) out vec4 outSurface0;
 layout(location = 3) out vec4 outSurface1;
+layout(location = 4) out vec4 outPositionDx;
+layout(location = 5) out vec4 outPositionDy;
+layout(location = 6) out vec4 outNormalDx;
+layout(location = 7) out vec4 outNormalDy;
 void main() {
+    vec3 normal = normalize(vNormal) * (gl_FrontFacing ? 1.0 : -1.0);
     outPosition = vec4(vPosition, 1.0);
-    outNormal = vec4(normalize(vNormal) * (gl_FrontFacing ? 1.0 : -1.0), 0.0);
+    outNormal = vec4(normal, 0.0);
     outSurface0 = surface0;
     outSurface1 = surface1;
+    outPositionDx = vec4(dFdx(vPosition), 0.0);
+    outPositionDy = vec4(dFdy(vPosition), 0.0);
+    outNormalDx = vec4(dFdx(normal), 0.0);
+    outNormalDy = vec4(dFdy(normal), 0.0);
 })";
 
 constexpr const char* kScreenVertex = R"(
@@ -45,8 +54,17 @@ void main() {
     gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0.0, 1.0);
 })";
 
+// What the geometry pass has written of a pixel; derivatives are those of its own triangle.
+constexpr const char* kPixel = R"(
+struct EnginePixel {
+    vec3 position, normal;
+    vec4 surface0, surface1;
+    vec3 positionDx, positionDy, normalDx, normalDy;
+};
+)";
+
 constexpr const char* kScreenMain = R"(
-uniform sampler2D engineTargets[4];
+uniform sampler2D engineTargets[8];
 out vec4 outColor;
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
@@ -54,8 +72,16 @@ void main() {
     if (position.w == 0.0) {
         discard;
     }
-    outColor = vec4(lighting(position.xyz, texelFetch(engineTargets[1], at, 0).xyz,
-                             texelFetch(engineTargets[2], at, 0), texelFetch(engineTargets[3], at, 0)), 1.0);
+    EnginePixel pixel;
+    pixel.position = position.xyz;
+    pixel.normal = texelFetch(engineTargets[1], at, 0).xyz;
+    pixel.surface0 = texelFetch(engineTargets[2], at, 0);
+    pixel.surface1 = texelFetch(engineTargets[3], at, 0);
+    pixel.positionDx = texelFetch(engineTargets[4], at, 0).xyz;
+    pixel.positionDy = texelFetch(engineTargets[5], at, 0).xyz;
+    pixel.normalDx = texelFetch(engineTargets[6], at, 0).xyz;
+    pixel.normalDy = texelFetch(engineTargets[7], at, 0).xyz;
+    outColor = vec4(lighting(pixel), 1.0);
 })";
 
 std::string logOf(GLuint object, bool isProgram) {
@@ -183,7 +209,7 @@ void DeferredEngine::add(const EngineMesh& mesh) {
 
 std::string DeferredEngine::setLighting(const std::string& text) {
     std::string words;
-    const GLuint made = link(kScreenVertex, text + kScreenMain, words);
+    const GLuint made = link(kScreenVertex, kPixel + text + kScreenMain, words);
     if (made != 0) {
         glDeleteProgram(lighting_);
         lighting_ = made;

@@ -34,8 +34,8 @@ public:
     DeferredEngine& operator=(const DeferredEngine&) = delete;
 
     void add(const EngineMesh& mesh);
-    /// GLSL 330 without a version line that defines
-    /// `vec3 lighting(vec3 position, vec3 normal, vec4 surface0, vec4 surface1)`.
+    /// GLSL 330 without a version line that defines `vec3 lighting(EnginePixel pixel)`: position,
+    /// normal, surface0, surface1, and screen derivatives of the first two.
     /// @return the compiler's words, "" if it took the text
     [[nodiscard]] std::string setLighting(const std::string& text);
     /// For its uniforms; 0 before setLighting.
@@ -54,7 +54,7 @@ private:
     void drawGeometry(const glm::mat4& clipFromWorld) const;
     void drawLighting() const;
 
-    static constexpr int kTargets = 4;
+    static constexpr int kTargets = 8;
     int width_, height_;
     GLuint geometryTarget_ = 0, lightingTarget_ = 0, depth_ = 0, picture_ = 0, empty_ = 0;
     GLuint targets_[kTargets] = {};

@@ -3,7 +3,6 @@
 // lodestar-host-foreign: an engine that is deferred and knows nothing of Lodestar
 // (deferred_engine.h), lit by a lighting document: textures by the extension "lodestar.gl", one
 // text for its lighting pass.
-#include <algorithm>
 #include <vector>
 
 #include <epoxy/egl.h>
@@ -20,20 +19,34 @@
 namespace lodestar::samples {
 namespace {
 
-constexpr GLuint kFirstUnit = 4; ///< behind the engine's own
+constexpr GLuint kFirstUnit = 8; ///< behind the engine's own
 
 constexpr const char* kLighting = R"(
 uniform vec3 eye;
 uniform vec4 towardsViewer; // w: 1 where all views are parallel
-vec3 lighting(vec3 position, vec3 normal, vec4 surface0, vec4 surface1) {
+vec3 viewFrom(vec3 position) {
+    return towardsViewer.w > 0.0 ? towardsViewer.xyz : normalize(eye - position);
+}
+vec3 reflection(vec3 position, vec3 normal) {
+    vec3 view = viewFrom(position);
+    return 2.0 * dot(normal, view) * normal - view;
+}
+vec3 lighting(EnginePixel pixel) {
     LodestarSurface here;
-    here.view = towardsViewer.w > 0.0 ? towardsViewer.xyz : normalize(eye - position);
-    here.normal = normal;
-    here.diffuse = surface0.rgb;
-    here.exponent = surface0.w;
-    here.f0 = surface1.rgb;
+    here.view = viewFrom(pixel.position);
+    here.normal = pixel.normal;
+    here.diffuse = pixel.surface0.rgb;
+    here.exponent = pixel.surface0.w;
+    here.f0 = pixel.surface1.rgb;
     here.occlusion = 1.0;
-    vec3 radiance = lodestar_lights(here);
+    // A quad of a screen pass lies on several objects, so the derivatives of the triangle's own
+    // quad give the neighbour in it: on the right and above of even pixels, else on the left and
+    // below.
+    vec3 r = reflection(pixel.position, pixel.normal);
+    vec2 to = 1.0 - 2.0 * mod(floor(gl_FragCoord.xy), 2.0);
+    vec3 dx = to.x * (reflection(pixel.position + to.x * pixel.positionDx, pixel.normal + to.x * pixel.normalDx) - r);
+    vec3 dy = to.y * (reflection(pixel.position + to.y * pixel.positionDy, pixel.normal + to.y * pixel.normalDy) - r);
+    vec3 radiance = lodestar_lighting(here, dx, dy);
     return vec3(lodestar_srgbFromLinear(lodestar_filmic(radiance.r)),
                 lodestar_srgbFromLinear(lodestar_filmic(radiance.g)),
                 lodestar_srgbFromLinear(lodestar_filmic(radiance.b)));
@@ -104,62 +117,50 @@ bool addScene(const hosts::LitContext& lit, const io::GltfFile& file, DeferredEn
     return true;
 }
 
-/// The three arrays behind the engine's own units. @return whether the library gave them
-bool bindTextures(const Attached& attached, GLuint program) {
-    GLuint unit = kFirstUnit;
-    int which = LODESTAR_TEXELS_MAP;
-    for (const char* name : {"lodestar_maps", "lodestar_lamberts", "lodestar_gradients"}) {
-        LodestarGlTexture texture{};
-        texture.struct_size = sizeof texture;
-        if (attached.gl().texture(attached.lit().get(), which++, &texture) != LODESTAR_OK) {
-            return false;
-        }
-        glActiveTexture(GL_TEXTURE0 + unit);
-        glBindTexture(texture.target, texture.name);
-        glUniform1i(glGetUniformLocation(program, name), static_cast<GLint>(unit++));
-    }
-    return true;
-}
-
-/// The lights that shine now, a vec4 each: their axes and layers.
-bool setLights(const Attached& attached, GLuint program) {
-    std::size_t count = 0;
-    attached.lit().api().lights(attached.lit().get(), nullptr, &count);
-    std::vector<LodestarLight> lights(count);
-    if (attached.lit().api().lights(attached.lit().get(), lights.data(), &count) != LODESTAR_OK) {
+/// The library's textures behind the engine's own units. @return whether it gave them
+bool bindTexture(const Attached& attached, const LodestarUniform& sampler, GLuint program,
+                 GLuint unit) {
+    LodestarGlTexture texture{};
+    texture.struct_size = sizeof texture;
+    if (attached.gl().texture(attached.lit().get(), sampler.texels, &texture) != LODESTAR_OK) {
         return false;
     }
-    std::vector<glm::vec4> axes;
-    for (const LodestarLight light : lights) {
-        LodestarLightState state{};
-        state.struct_size = sizeof state;
-        std::uint32_t layer = 0;
-        if (attached.lit().api().light_state(attached.lit().get(), light, &state) != LODESTAR_OK) {
-            return false;
-        }
-        if (state.visibility > 0.0 && axes.size() < std::size_t{hosts::kMaxLights} &&
-            attached.gl().layer(attached.lit().get(), light, &layer) == LODESTAR_OK) {
-            axes.emplace_back(glm::vec3(glm::make_vec3(state.axis)), static_cast<float>(layer));
-        }
-    }
-    const auto shining = static_cast<GLsizei>(axes.size());
-    glUniform1i(glGetUniformLocation(program, "lodestar_count"), shining);
-    glUniform4fv(glGetUniformLocation(program, "lodestar_axes"), shining,
-                 reinterpret_cast<const float*>(axes.data()));
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(texture.target, texture.name);
+    glUniform1i(glGetUniformLocation(program, sampler.name), static_cast<GLint>(unit));
     return true;
 }
 
-void setView(const scene::View& view, const LodestarApi& api, GLuint program) {
+/// Plans the hour, uploads what it shows, and sets all that the text reads.
+bool light(const Attached& attached, double hour, GLuint program) {
+    const hosts::LitContext& lit = attached.lit();
+    LodestarFrame frame{};
+    frame.struct_size = sizeof frame;
+    frame.hour = hour;
+    LodestarPlan plan = 0;
+    if (lit.api().plan_make(lit.get(), &frame, &plan) != LODESTAR_OK ||
+        attached.gl().execute(lit.get(), plan) != LODESTAR_OK) {
+        return false;
+    }
+    const std::vector<unsigned char> data = hosts::uniformData(lit.api(), lit.get(), plan);
+    GLuint unit = kFirstUnit;
+    for (const LodestarUniform& uniform : hosts::uniforms(lit.api())) {
+        if (uniform.type == LODESTAR_UNIFORM_VEC4) {
+            glUniform4fv(glGetUniformLocation(program, uniform.name),
+                         static_cast<GLsizei>(uniform.count),
+                         reinterpret_cast<const float*>(data.data() + uniform.offset));
+        } else if (!bindTexture(attached, uniform, program, unit++)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void setView(const scene::View& view, GLuint program) {
     const auto at = [&](const char* name) { return glGetUniformLocation(program, name); };
     const glm::vec4 towards(view.towardsViewer, view.perspective ? 0.0f : 1.0f);
     glUniform3fv(at("eye"), 1, glm::value_ptr(view.position));
     glUniform4fv(at("towardsViewer"), 1, glm::value_ptr(towards));
-    LodestarMapLayout layout{};
-    layout.struct_size = sizeof layout;
-    api.map_layout(&layout);
-    const hosts::MapUniforms map = hosts::mapUniforms(layout);
-    glUniform4fv(at("lodestar_mapSize"), 1, map.size);
-    glUniform4fv(at("lodestar_mapRows"), 1, map.rows);
 }
 
 core::Result<core::Image> draw(const HostCall& call, const HostScene& loaded) {
@@ -186,10 +187,9 @@ core::Result<core::Image> draw(const HostCall& call, const HostScene& loaded) {
     }
     const GLuint program = engine.lightingProgram();
     glUseProgram(program);
-    setView(loaded.view, lit->api(), program);
-    if (lit->api().set_hour(lit->get(), call.hour) != LODESTAR_OK ||
-        attached.gl().update(lit->get()) != LODESTAR_OK || !setLights(attached, program) ||
-        !bindTextures(attached, program)) {
+    setView(loaded.view, program);
+    glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+    if (!light(attached, call.hour, program)) {
         return lit->refusal();
     }
     return pictureOf(call, engine.draw(loaded.view.clipFromWorld()).data());

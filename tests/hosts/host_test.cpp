@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "golden/gltf_builder.h"
+#include "io/image_file.h"
 #include "support/picture.h"
 #include "support/shapes.h"
 
@@ -40,11 +41,13 @@ std::string spheres(const TemporaryFolder& folder, double x) {
 }
 
 /// A sky and a sun that the day moves; the sun casts no shadow, for that is the host's own.
-/// @param more members of the document
-std::string day(const TemporaryFolder& folder, const std::string& more = {}) {
+/// @param more members of the document  @param ofSky members of the sky
+std::string day(const TemporaryFolder& folder, const std::string& more = {},
+                const std::string& ofSky = {}) {
     return folder
         .write("day.lodestar.json", R"({"lodestar": 1, )" + more + R"("lights": [
-        {"name": "sky", "kind": "sky", "keys": [
+        {"name": "sky", "kind": "sky", )" +
+                                        ofSky + R"("keys": [
             {"hour": 12, "gradient": {"stops": [{"at": 90, "color": [0.1, 0.25, 0.7]}, {"at": 0, "color": [0.8, 0.85, 0.9]},
                 {"at": 0, "color": [0.25, 0.2, 0.15]}, {"at": -90, "color": [0.1, 0.08, 0.06]}]}},
             {"hour": 20, "tint": [0.4, 0.3, 0.5], "gradient": {"stops": [{"at": 90, "color": [0.1, 0.12, 0.35]},
@@ -111,6 +114,46 @@ TEST(Host, ADocumentLightsItAsItLightsUs) {
     EXPECT_FALSE(passes(byHost(folder, scene, lighting, "9"), own, "not moved"));
 }
 
+/// A room with a bright window, its walls of three colours.
+void writePanorama(const std::filesystem::path& path) {
+    core::Image panorama(128, 64, 3);
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 128; ++x) {
+            const bool window = x > 70 && x < 84 && y > 18 && y < 30;
+            const float wall = 0.1f + 0.2f * static_cast<float>(x / 43);
+            const float lit = window ? 24.0f : wall * (y < 32 ? 1.0f : 0.4f);
+            const float texel[3] = {lit, lit * 0.9f, lit * (window ? 0.8f : 0.5f)};
+            std::copy(std::begin(texel), std::end(texel), panorama.at(x, y));
+        }
+    }
+    ASSERT_TRUE(io::writeImage(path, panorama));
+}
+
+TEST(Host, ADocumentsEnvironmentLightsIt) {
+    const TemporaryFolder folder;
+    writePanorama(folder / "room.exr");
+    const std::string scene = spheres(folder, 2.2);
+    const std::string room =
+        R"("environment": {"source": "room.exr", "rotation": 35, "ev": 0.5}, )";
+    const std::string beside = day(folder, room, R"("add": true, )");
+    const core::Image own = byUs(folder, scene, beside, "9");
+    EXPECT_TRUE(passes(byHost(folder, scene, beside, "9"), own, "environment, sky and sun"));
+    // The other documents must fail the gate: no environment, a sky in its place, another way up.
+    EXPECT_FALSE(passes(byHost(folder, scene, day(folder), "9"), own, "without it"));
+    EXPECT_FALSE(passes(byHost(folder, scene, day(folder, room), "9"), own, "a sky in its place"));
+    const std::string turned = R"("environment": {"source": "room.exr", "ev": 0.5}, )";
+    EXPECT_FALSE(passes(byHost(folder, scene, day(folder, turned, R"("add": true, )"), "9"), own,
+                        "not turned"));
+    // Alone.
+    const std::string alone =
+        folder
+            .write("room.lodestar.json",
+                   R"({"lodestar": 1, "environment": {"source": "room.exr"}})")
+            .string();
+    EXPECT_TRUE(passes(byHost(folder, scene, alone, "9"), byUs(folder, scene, alone, "9"),
+                       "environment alone"));
+}
+
 TEST(Host, TheHostsAreCalledAlike) {
     const TemporaryFolder folder;
     const std::string lighting = day(folder);
@@ -140,7 +183,8 @@ TEST(Host, ADocumentThatCannotLightIsSaid) {
     const std::string said = (folder / "said").string();
     const std::pair<const char*, const char*> cases[] = {
         {R"({"lodestar": 1, "lights": [{"kind": "moon", "keys": []}]})", "(/lights/0/kind)"},
-        {R"({"lodestar": 1})", "(/lights)"}};
+        {R"({"lodestar": 1})", "(/lights)"},
+        {R"({"lodestar": 1, "environment": {"source": "../room.exr"}})", "(/environment/source)"}};
     for (const auto& [text, place] : cases) {
         const std::string file = folder.write("broken.lodestar.json", std::string(text)).string();
         for (const char* host : {LODESTAR_HOST, "lodestar-host-builtin"}) {

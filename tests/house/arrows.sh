@@ -9,6 +9,7 @@ cd "${1:?usage: arrows.sh ROOT}" || exit 1
 table='
 shaders/lodestar:
 shaders/host: shaders/lodestar
+shaders/plugin: shaders/lodestar
 runtime/core:
 runtime/lighting: runtime/core shaders/lodestar
 runtime/document: runtime/lighting
@@ -20,7 +21,7 @@ runtime/scene: runtime/io runtime/plan runtime/gl
 editor/model: runtime/document runtime/io
 editor/ui: editor/model runtime/plan runtime/gl
 editor/app: runtime/scene editor/ui runtime/platform
-plugin: runtime/document runtime/plan runtime/gl
+plugin: runtime/document runtime/plan runtime/gl shaders/plugin
 plugin/hosts: plugin runtime/io
 samples: runtime/scene runtime/platform plugin plugin/hosts
 tests: editor/app runtime/scene runtime/platform plugin samples
@@ -28,7 +29,7 @@ tests: editor/app runtime/scene runtime/platform plugin samples
 # Libraries by other people: the first word is a pattern of the angle include, then the folders that
 # may use it. Headers that match no pattern are the standard library's or the system's.
 third_party='
-^glm/ shaders/lodestar shaders/host runtime/lighting runtime/document runtime/plan runtime/io runtime/gl runtime/scene editor/app editor/ui editor/model plugin plugin/hosts samples
+^glm/ shaders/lodestar shaders/host shaders/plugin runtime/lighting runtime/document runtime/plan runtime/io runtime/gl runtime/scene editor/app editor/ui editor/model plugin plugin/hosts samples
 ^epoxy/ runtime/gl runtime/platform runtime/scene editor/ui editor/app plugin plugin/hosts samples
 ^(GL|EGL|GLES[23]|KHR)/ runtime/platform runtime/gl plugin plugin/hosts
 ^OpenImageIO/ runtime/io

@@ -17,6 +17,8 @@
 namespace lodestar::osghost {
 namespace {
 
+constexpr unsigned kSeamless = 0x884F; // GL_TEXTURE_CUBE_MAP_SEAMLESS
+
 osg::ref_ptr<osg::Texture2DArray> makeArray(std::uint32_t width, std::uint32_t height,
                                             std::size_t layers) {
     osg::ref_ptr<osg::Texture2DArray> texture = new osg::Texture2DArray;
@@ -66,26 +68,76 @@ std::vector<float> floatsOf(const std::vector<unsigned char>& bytes) {
     return texels;
 }
 
+std::vector<float> floatsOfHalves(const std::vector<unsigned char>& bytes) {
+    std::vector<float> texels(bytes.size() / sizeof(std::uint16_t));
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        std::uint16_t half = 0;
+        std::memcpy(&half, bytes.data() + i * sizeof half, sizeof half);
+        texels[i] = glm::unpackHalf1x16(half);
+    }
+    return texels;
+}
+
+void setCubeParameters(osg::TextureCubeMap& texture) {
+    texture.setInternalFormat(GL_RGBA32F_ARB);
+    texture.setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR_MIPMAP_LINEAR);
+    texture.setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
+    for (const auto wrap : {osg::Texture::WRAP_S, osg::Texture::WRAP_T, osg::Texture::WRAP_R}) {
+        texture.setWrap(wrap, osg::Texture::CLAMP_TO_EDGE);
+    }
+    texture.setResizeNonPowerOfTwoHint(false);
+    texture.setUseHardwareMipMapGeneration(false);
+}
+
+/// A face with its levels, one behind the other.
+osg::ref_ptr<osg::Image> faceImage(const std::vector<std::vector<float>>& levels, std::size_t face,
+                                   int width) {
+    std::size_t count = 0;
+    osg::Image::MipmapDataType offsets; // of the levels behind the first
+    for (const std::vector<float>& level : levels) {
+        if (count > 0) {
+            offsets.push_back(static_cast<unsigned>(count * sizeof(float)));
+        }
+        count += level.size() / 6;
+    }
+    auto* data = new unsigned char[count * sizeof(float)];
+    std::size_t at = 0;
+    for (const std::vector<float>& level : levels) {
+        const std::size_t bytes = level.size() / 6 * sizeof(float);
+        std::memcpy(data + at, level.data() + face * (level.size() / 6), bytes);
+        at += bytes;
+    }
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->setImage(width, width, 1, GL_RGBA32F_ARB, GL_RGBA, GL_FLOAT, data,
+                    osg::Image::USE_NEW_DELETE);
+    image->setMipmapLevels(offsets);
+    return image;
+}
+
 } // namespace
 
 Lights::Lights(const LodestarApi& api, LodestarContext* context, osg::StateSet& state,
                int firstUnit)
-    : api_(api), context_(context), state_(&state), firstUnit_(firstUnit),
-      count_(new osg::Uniform("lodestar_count", 0)),
-      axes_(new osg::Uniform(osg::Uniform::FLOAT_VEC4, "lodestar_axes", hosts::kMaxLights)) {
+    : api_(api), context_(context), state_(&state), firstUnit_(firstUnit) {
     layout_.struct_size = sizeof layout_;
     api_.map_layout(&layout_);
-    state.addUniform(count_);
-    state.addUniform(axes_);
-    const hosts::MapUniforms map = hosts::mapUniforms(layout_);
-    state.addUniform(new osg::Uniform(
-        "lodestar_mapSize", osg::Vec4(map.size[0], map.size[1], map.size[2], map.size[3])));
-    state.addUniform(new osg::Uniform(
-        "lodestar_mapRows", osg::Vec4(map.rows[0], map.rows[1], map.rows[2], map.rows[3])));
     int unit = firstUnit;
-    for (const char* name : {"lodestar_maps", "lodestar_lamberts", "lodestar_gradients"}) {
-        state.addUniform(new osg::Uniform(name, unit++));
+    for (const LodestarUniform& info : hosts::uniforms(api_)) {
+        if (info.type == LODESTAR_UNIFORM_VEC4) {
+            values_.push_back({info, new osg::Uniform(osg::Uniform::FLOAT_VEC4, info.name,
+                                                      static_cast<int>(info.count))});
+            state.addUniform(values_.back().uniform);
+            continue;
+        }
+        state.addUniform(new osg::Uniform(info.name, unit));
+        if (info.texels == LODESTAR_TEXELS_ENVIRONMENT) {
+            cubes_[0] = {info.texels, unit};
+        } else if (info.texels == LODESTAR_TEXELS_IRRADIANCE) {
+            cubes_[1] = {info.texels, unit};
+        }
+        ++unit;
     }
+    state.setMode(kSeamless, osg::StateAttribute::ON);
 }
 
 LodestarStatus Lights::layOut() {
@@ -98,7 +150,6 @@ LodestarStatus Lights::layOut() {
     if (status < 0) {
         return status;
     }
-    handles.resize(std::min<std::size_t>(count, hosts::kMaxLights));
     const bool same = handles.size() == layers_.size() &&
                       std::equal(handles.begin(), handles.end(), layers_.begin(),
                                  [](LodestarLight a, const Layer& b) { return a == b.light; });
@@ -109,14 +160,12 @@ LodestarStatus Lights::layOut() {
     for (const LodestarLight handle : handles) {
         layers_.push_back({handle, 0});
     }
-    if (!layers_.empty()) {
-        maps_ = makeArray(layout_.columns, layout_.rows, layers_.size());
-        lamberts_ = makeArray(layout_.lambert_columns, 1, layers_.size());
-        gradients_ = makeArray(layout_.gradient_columns, 1, layers_.size());
-        int unit = firstUnit_;
-        for (osg::Texture2DArray* texture : {maps_.get(), lamberts_.get(), gradients_.get()}) {
-            state_->setTextureAttribute(static_cast<unsigned>(unit++), texture);
-        }
+    const std::uint32_t sizes[3][2] = {{layout_.columns, layout_.rows},
+                                       {layout_.lambert_columns, 1},
+                                       {layout_.gradient_columns, 1}};
+    for (int texels = 0; texels < 3 && !layers_.empty(); ++texels) {
+        arrays_[texels] = makeArray(sizes[texels][0], sizes[texels][1], layers_.size());
+        state_->setTextureAttribute(static_cast<unsigned>(firstUnit_ + texels), arrays_[texels]);
     }
     return LODESTAR_OK;
 }
@@ -133,43 +182,109 @@ LodestarStatus Lights::read(LodestarLight light, int which, std::vector<unsigned
 
 LodestarStatus Lights::upload(std::size_t layer, LodestarLight light) {
     std::vector<unsigned char> bytes;
-    LodestarStatus status = read(light, LODESTAR_TEXELS_MAP, bytes);
-    if (status == LODESTAR_OK) {
-        fill(*maps_, layer, unpacked(bytes));
-        status = read(light, LODESTAR_TEXELS_LAMBERT, bytes);
+    for (int texels = 0; texels < 3; ++texels) {
+        const LodestarStatus status = read(light, texels, bytes);
+        if (status != LODESTAR_OK) {
+            return status;
+        }
+        fill(*arrays_[texels], layer,
+             texels == LODESTAR_TEXELS_MAP       ? unpacked(bytes)
+             : texels == LODESTAR_TEXELS_LAMBERT ? floatsOf(bytes)
+                                                 : floatsOfHalves(bytes));
     }
-    if (status == LODESTAR_OK) {
-        fill(*lamberts_, layer, floatsOf(bytes));
-        status = read(light, LODESTAR_TEXELS_GRADIENT, bytes);
+    return LODESTAR_OK;
+}
+
+LodestarStatus Lights::showLights(LodestarPlan plan) {
+    std::size_t count = 0;
+    LodestarStatus status = api_.plan_lights(context_, plan, nullptr, &count);
+    std::vector<LodestarPlannedLight> shown(count);
+    for (LodestarPlannedLight& light : shown) {
+        light.struct_size = sizeof light;
     }
-    if (status == LODESTAR_OK) {
-        fill(*gradients_, layer, floatsOf(bytes));
+    if (count > 0) {
+        status = api_.plan_lights(context_, plan, shown.data(), &count);
     }
-    return status;
+    for (std::size_t i = 0; status == LODESTAR_OK && i < shown.size(); ++i) {
+        Layer& layer = layers_[shown[i].layer];
+        if (layer.version != shown[i].version) {
+            status = upload(shown[i].layer, shown[i].light);
+            layer.version = shown[i].version;
+        }
+    }
+    return status < 0 ? status : LODESTAR_OK;
+}
+
+osg::ref_ptr<osg::TextureCubeMap> Lights::cubeTexture(LodestarEnvironment of, const Cube& cube,
+                                                      const LodestarCube& described) {
+    std::vector<std::vector<float>> levels;
+    for (std::uint32_t level = 0; level < described.levels; ++level) {
+        std::size_t size = 0;
+        api_.environment_texels(context_, of, cube.texels, level, nullptr, &size);
+        std::vector<unsigned char> bytes(size);
+        if (api_.environment_texels(context_, of, cube.texels, level, bytes.data(), &size) !=
+            LODESTAR_OK) {
+            return nullptr;
+        }
+        levels.push_back(described.half_floats != 0 ? floatsOfHalves(bytes) : floatsOf(bytes));
+    }
+    osg::ref_ptr<osg::TextureCubeMap> texture = new osg::TextureCubeMap;
+    setCubeParameters(*texture);
+    for (unsigned face = 0; face < 6; ++face) {
+        texture->setImage(face, faceImage(levels, face, static_cast<int>(described.width)));
+    }
+    return texture;
+}
+
+LodestarStatus Lights::showCube(LodestarPlan plan, Cube& cube) {
+    LodestarEnvironment of = 0;
+    LodestarCube described{};
+    described.struct_size = sizeof described;
+    LodestarStatus status = api_.plan_environment(context_, plan, cube.texels, &of);
+    if (status == LODESTAR_OK && of != 0) {
+        status = api_.environment_cube(context_, of, cube.texels, &described);
+    }
+    if (status != LODESTAR_OK || (of == cube.of && described.version == cube.version)) {
+        return status;
+    }
+    cube.of = of;
+    cube.version = described.version;
+    if (of == 0) {
+        state_->removeTextureAttribute(static_cast<unsigned>(cube.unit),
+                                       osg::StateAttribute::TEXTURE);
+        return LODESTAR_OK;
+    }
+    const osg::ref_ptr<osg::TextureCubeMap> texture = cubeTexture(of, cube, described);
+    if (!texture) {
+        return LODESTAR_E_ARG;
+    }
+    state_->setTextureAttribute(static_cast<unsigned>(cube.unit), texture);
+    return LODESTAR_OK;
 }
 
 LodestarStatus Lights::update(double hour) {
-    LodestarStatus status = api_.set_hour(context_, hour);
+    LodestarFrame frame{};
+    frame.struct_size = sizeof frame;
+    frame.hour = hour;
+    LodestarPlan plan = 0;
+    LodestarStatus status = api_.plan_make(context_, &frame, &plan);
     status = status == LODESTAR_OK ? layOut() : status;
-    int shining = 0;
-    for (std::size_t i = 0; status == LODESTAR_OK && i < layers_.size(); ++i) {
-        LodestarLightState state{};
-        state.struct_size = sizeof state;
-        status = api_.light_state(context_, layers_[i].light, &state);
-        if (status != LODESTAR_OK || !(state.visibility > 0.0)) {
-            continue;
-        }
-        if (layers_[i].version != state.version) {
-            status = upload(i, layers_[i].light);
-            layers_[i].version = state.version;
-        }
-        axes_->setElement(static_cast<unsigned>(shining++),
-                          osg::Vec4(static_cast<float>(state.axis[0]),
-                                    static_cast<float>(state.axis[1]),
-                                    static_cast<float>(state.axis[2]), static_cast<float>(i)));
+    status = status == LODESTAR_OK ? showLights(plan) : status;
+    for (Cube& cube : cubes_) {
+        status = status == LODESTAR_OK ? showCube(plan, cube) : status;
     }
-    count_->set(shining);
-    return status;
+    if (status != LODESTAR_OK) {
+        return status;
+    }
+    const std::vector<unsigned char> data = hosts::uniformData(api_, context_, plan);
+    for (Value& value : values_) {
+        for (std::uint32_t i = 0; i < value.info.count; ++i) {
+            float v[4];
+            std::memcpy(v, data.data() + value.info.offset + i * sizeof v, sizeof v);
+            value.uniform->setElement(i, osg::Vec4(v[0], v[1], v[2], v[3]));
+        }
+    }
+    return LODESTAR_OK;
 }
 
 } // namespace lodestar::osghost

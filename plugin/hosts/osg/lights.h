@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Lodestar's lights in OpenSceneGraph, by its own textures and uniforms: nothing of the library
+// Lodestar's lighting in OpenSceneGraph, by its own textures and uniforms: nothing of the library
 // touches GL. Everything here runs in the update traversal.
 #pragma once
 
@@ -9,32 +9,44 @@
 
 #include <osg/StateSet>
 #include <osg/Texture2DArray>
+#include <osg/TextureCubeMap>
 #include <osg/Uniform>
 
 #include <lodestar/lodestar.h>
 
 namespace lodestar::osghost {
 
-/// The lights of a context in a StateSet, as hosts::shadingText reads them: texture units from
-/// `firstUnit` on, three of them.
+/// The lighting of a context in a StateSet, as hosts::shadingText reads it: texture units from
+/// `firstUnit` on, five of them.
 class Lights {
 public:
     /// @param context that outlives this  @param state what is lit below
     Lights(const LodestarApi& api, LodestarContext* context, osg::StateSet& state, int firstUnit);
 
-    /// Moves to an hour: axes as uniforms, texels where they have changed.
+    /// Plans an hour: uniforms always, texels where they have changed.
     /// @return the first status that is not LODESTAR_OK; last_error says it in words
     LodestarStatus update(double hour);
 
 private:
-    /// What a layer of the textures holds.
+    /// What a layer of the arrays holds.
     struct Layer {
         LodestarLight light = 0;
         std::uint64_t version = 0;
     };
+    /// A cube of the environment's.
+    struct Cube {
+        int texels = LODESTAR_TEXELS_ENVIRONMENT;
+        int unit = 0;
+        LodestarEnvironment of = 0;
+        std::uint64_t version = 0;
+    };
     LodestarStatus layOut();
+    LodestarStatus showLights(LodestarPlan plan);
     LodestarStatus upload(std::size_t layer, LodestarLight light);
     LodestarStatus read(LodestarLight light, int which, std::vector<unsigned char>& bytes);
+    LodestarStatus showCube(LodestarPlan plan, Cube& cube);
+    osg::ref_ptr<osg::TextureCubeMap> cubeTexture(LodestarEnvironment of, const Cube& cube,
+                                                  const LodestarCube& described);
 
     const LodestarApi& api_;
     LodestarContext* context_;
@@ -42,8 +54,13 @@ private:
     int firstUnit_;
     LodestarMapLayout layout_{};
     std::vector<Layer> layers_;
-    osg::ref_ptr<osg::Texture2DArray> maps_, lamberts_, gradients_;
-    osg::ref_ptr<osg::Uniform> count_, axes_;
+    osg::ref_ptr<osg::Texture2DArray> arrays_[3];
+    Cube cubes_[2];
+    struct Value {
+        LodestarUniform info;
+        osg::ref_ptr<osg::Uniform> uniform;
+    };
+    std::vector<Value> values_; ///< vec4 each
 };
 
 } // namespace lodestar::osghost

@@ -134,7 +134,8 @@ void main() {
     here.f0 = material_f0.rgb;
     here.exponent = material_diffuse.w;
     here.occlusion = 1.0;
-    vec3 radiance = lodestar_lights(here);
+    vec3 reflection = 2.0 * dot(here.normal, here.view) * here.normal - here.view;
+    vec3 radiance = lodestar_lighting(here, dFdx(reflection), dFdy(reflection));
     gl_FragColor = vec4(lodestar_srgbFromLinear(lodestar_filmic(radiance.r)),
                         lodestar_srgbFromLinear(lodestar_filmic(radiance.g)),
                         lodestar_srgbFromLinear(lodestar_filmic(radiance.b)), 1.0);

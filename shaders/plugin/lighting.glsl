@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+//
+// A whole frame's lighting for a host's shader: the environment and the skies and suns of a plan, by
+// the uniforms of uniforms.glsl and five samplers. A host calls lodestar_lighting for a surface and
+// lodestar_backdrop for what is seen beyond all surfaces.
+//
+// Feature macros, as a plan names them for each draw:
+//   LODESTAR_WITH_ENVIRONMENT      0: the draw takes no light of an environment
+//   LODESTAR_WITH_LIGHTS           0: nor of skies and suns
+//   LODESTAR_RSRM_MIRROR           0: no exponent exceeds the maps' last row
+//   LODESTAR_WITH_HOST_VISIBILITY  1: the host defines lodestar_host_visibility, its shadow term
+#ifndef LODESTAR_WITH_ENVIRONMENT
+#define LODESTAR_WITH_ENVIRONMENT 1
+#endif
+#ifndef LODESTAR_WITH_LIGHTS
+#define LODESTAR_WITH_LIGHTS 1
+#endif
+#ifndef LODESTAR_WITH_HOST_VISIBILITY
+#define LODESTAR_WITH_HOST_VISIBILITY 0
+#endif
+
+#include "plugin/uniforms.glsl"
+#include "lodestar/environment.glsl"
+#include "lodestar/rsrm.glsl"
+
+uniform samplerCube lodestar_environmentTexels;
+uniform samplerCube lodestar_irradianceTexels;
+uniform sampler2DArray lodestar_maps;
+uniform sampler2DArray lodestar_lamberts;
+uniform sampler2DArray lodestar_gradients; // square roots
+
+vec4 lodestar_host_cube(int slot, vec3 direction, float level) {
+    vec4 texel = textureLod(lodestar_environmentTexels, direction, level);
+    return vec4(texel.rgb * lodestar_environmentCube.w, texel.a);
+}
+
+vec3 lodestar_host_irradiance(int slot, vec3 normal) {
+    return textureLod(lodestar_irradianceTexels, normal, 0.0).rgb * lodestar_irradianceCube.w;
+}
+
+vec4 lodestar_host_rsrm(float column, float row, int layer) {
+    vec2 at = (vec2(column, row) + 0.5) / lodestar_mapSize.xy;
+    return vec4(textureLod(lodestar_maps, vec3(at, float(layer)), 0.0).rgb, 1.0);
+}
+
+/// Both ends of a line lie on texel centres.
+vec3 lodestar_lineCoordinate(float at, float columns, int layer) {
+    return vec3((at * (columns - 1.0) + 0.5) / columns, 0.5, float(layer));
+}
+
+vec3 lodestar_host_rsrmLambert(float u, int layer) {
+    return textureLod(lodestar_lamberts, lodestar_lineCoordinate(u, lodestar_mapRows.z, layer), 0.0).rgb;
+}
+
+vec3 lodestar_host_rsrmGradient(float u2, int layer) {
+    vec3 root = textureLod(lodestar_gradients, lodestar_lineCoordinate(u2, lodestar_mapRows.w, layer), 0.0).rgb;
+    return root * root;
+}
+
+#if LODESTAR_WITH_HOST_VISIBILITY
+/// How much of a light the host's shadows let through, [0, 1]. @param light its place in the plan
+float lodestar_host_visibility(int light);
+#else
+float lodestar_host_visibility(int light) { return 1.0; }
+#endif
+
+LodestarRsrm lodestar_lightMap(int light) {
+    LodestarRsrm map;
+    map.layer = int(lodestar_axes[light].w);
+    map.layoutName = LODESTAR_RSRM_REFINED;
+    map.axis = lodestar_axes[light].xyz;
+    map.columns = lodestar_mapSize.x;
+    map.rows = lodestar_mapSize.y;
+    map.leastExponent = lodestar_mapSize.z;
+    map.greatestExponent = lodestar_mapSize.w;
+    map.firstOctave = lodestar_mapRows.x;
+    map.rowsPerOctave = lodestar_mapRows.y;
+    return map;
+}
+
+/// Radiance of the skies and suns, reflected towards the viewer.
+vec3 lodestar_lightsReflected(LodestarSurface here) {
+    LodestarLookup lookup = lodestar_lookup(here.normal, here.view, here.exponent);
+    vec3 lambert = vec3(0.0);
+    vec3 glossy = vec3(0.0);
+    for (int i = 0; i < int(lodestar_counts.x); ++i) {
+        LodestarRsrm map = lodestar_lightMap(i);
+        float visible = lodestar_host_visibility(i);
+        lambert += visible * lodestar_rsrmLambert(map, here.normal);
+        glossy += visible * lodestar_rsrm(map, lookup.direction, lodestar_rsrmRow(map, lookup.exponent));
+    }
+    return lodestar_reflected(here, lambert, glossy);
+}
+
+LodestarCube lodestar_distantCube() {
+    LodestarCube cube;
+    cube.slot = 0;
+    cube.width = lodestar_environmentCube.x;
+    cube.maxLevel = lodestar_environmentCube.y;
+    cube.leastLevel = lodestar_environmentCube.z;
+    return cube;
+}
+
+/// Radiance of all light, reflected towards the viewer.
+/// @param reflectionDx, reflectionDy screen derivatives of 2 (n.v) n - v; 0 where there are none, in
+/// a deferred pass say: then mirrors of fine environments may alias
+vec3 lodestar_lighting(LodestarSurface here, vec3 reflectionDx, vec3 reflectionDy) {
+    vec3 radiance = vec3(0.0);
+#if LODESTAR_WITH_ENVIRONMENT
+    if (lodestar_counts.y > 0.0) {
+        radiance += lodestar_environment(lodestar_distantCube(), here, reflectionDx, reflectionDy);
+    }
+#endif
+#if LODESTAR_WITH_LIGHTS
+    if (lodestar_counts.x > 0.0) {
+        radiance += lodestar_lightsReflected(here);
+    }
+#endif
+    return radiance;
+}
+
+/// Radiance from a direction beyond all surfaces.
+vec3 lodestar_backdrop(vec3 direction) {
+    vec3 radiance = vec3(0.0);
+#if LODESTAR_WITH_ENVIRONMENT
+    if (lodestar_counts.y > 0.0) {
+        radiance += lodestar_host_cube(0, direction, 0.0).rgb;
+    }
+#endif
+#if LODESTAR_WITH_LIGHTS
+    for (int i = 0; i < int(lodestar_counts.x); ++i) {
+        radiance += lodestar_rsrmGradient(lodestar_lightMap(i), direction);
+    }
+#endif
+    return radiance;
+}
