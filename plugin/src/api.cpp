@@ -407,6 +407,7 @@ LodestarStatus lodestar_get_api(uint32_t host_abi, LodestarApi* api) {
         return LODESTAR_E_ABI;
     }
     core::setContractHandler(plugin::throwContract);
+    plugin::keepSharedMemoryApart();
     const LodestarApi whole = plugin::table();
     const uint32_t size = std::min<uint32_t>(api->struct_size, sizeof whole);
     std::memcpy(api, &whole, size);

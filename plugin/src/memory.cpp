@@ -9,6 +9,8 @@
 #include <cstring>
 #include <new>
 
+#include "core/shared_memory.h"
+
 namespace lodestar::plugin {
 namespace {
 
@@ -23,9 +25,10 @@ void toLibrary(void*, void* memory) {
 }
 
 thread_local const Allocator* current = nullptr;
+thread_local int sharing = 0; ///< how many shared things are being made
 
 void* allocate(std::size_t size) noexcept {
-    Allocator from = current != nullptr ? *current : Allocator{};
+    Allocator from = current != nullptr && sharing == 0 ? *current : Allocator{};
     if (from.allocate == nullptr) {
         from = {nullptr, fromLibrary, toLibrary};
     }
@@ -54,6 +57,10 @@ AllocatorScope::AllocatorScope(const Allocator& allocator) : before_(current) {
 
 AllocatorScope::~AllocatorScope() {
     current = before_;
+}
+
+void keepSharedMemoryApart() {
+    core::setSharedMemoryHooks({[] { ++sharing; }, [] { --sharing; }});
 }
 
 } // namespace lodestar::plugin

@@ -26,4 +26,7 @@ private:
     const Allocator* before_;
 };
 
+/// What contexts share, tables by widths say, is the library's own memory from now on.
+void keepSharedMemoryApart();
+
 } // namespace lodestar::plugin

@@ -122,14 +122,11 @@ LobeTable makeTable(double effectiveWidth, int width, int sourceWidth) {
 std::shared_ptr<const LobeTable> lobeTable(double effectiveWidth, int width, int sourceWidth) {
     constexpr std::size_t kCachedTables = 16;
     static TableCache<LobeTable> cache(kCachedTables);
-    auto table = cache.find([&](const LobeTable& kept) {
-        return kept.effectiveWidth == effectiveWidth && kept.sourceWidth == sourceWidth;
-    });
-    if (table == nullptr) {
-        table = std::make_shared<const LobeTable>(makeTable(effectiveWidth, width, sourceWidth));
-        cache.keep(table);
-    }
-    return table;
+    return cache.get(
+        [&](const LobeTable& kept) {
+            return kept.effectiveWidth == effectiveWidth && kept.sourceWidth == sourceWidth;
+        },
+        [&] { return makeTable(effectiveWidth, width, sourceWidth); });
 }
 
 /// Sums run by run: rounding grows with their length and their number, not with the product.

@@ -80,14 +80,8 @@ TexelTable::TexelTable(int width) : width_(width) {
 
 std::shared_ptr<const TexelTable> texelTable(int width) {
     static TableCache<TexelTable> cache(kCachedTables);
-    auto table = cache.find([width](const TexelTable& kept) { return kept.width() == width; });
-    if (table == nullptr) {
-        table = std::make_shared<const TexelTable>(width);
-        if (width <= kWidestCached) {
-            cache.keep(table);
-        }
-    }
-    return table;
+    return cache.get([width](const TexelTable& kept) { return kept.width() == width; },
+                     [width] { return TexelTable(width); }, width <= kWidestCached);
 }
 
 } // namespace lodestar::lighting

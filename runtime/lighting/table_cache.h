@@ -7,7 +7,8 @@
 #include <list>
 #include <memory>
 #include <mutex>
-#include <utility>
+
+#include "core/shared_memory.h"
 
 namespace lodestar::lighting {
 
@@ -17,7 +18,27 @@ class TableCache {
 public:
     explicit TableCache(std::size_t most) : most_(most) {}
 
-    /// The first table that `matches(table)` accepts, moved to the front, or null.
+    /// The first table that `matches(table)` accepts, else what `make()` returns, in shared memory,
+    /// kept where `keeps` says so. It is made outside the lock: two threads may each make one,
+    /// which does no harm.
+    template <class Matches, class Make>
+    [[nodiscard]] std::shared_ptr<const Table> get(Matches matches, Make make, bool keeps = true) {
+        if (auto found = find(matches)) {
+            return found;
+        }
+        const core::SharedMemory shared;
+        auto table = std::make_shared<const Table>(make());
+        if (keeps) {
+            const std::lock_guard lock(mutex_);
+            tables_.push_front(table);
+            if (tables_.size() > most_) {
+                tables_.pop_back();
+            }
+        }
+        return table;
+    }
+
+private:
     template <class Matches>
     [[nodiscard]] std::shared_ptr<const Table> find(Matches matches) {
         const std::lock_guard lock(mutex_);
@@ -30,17 +51,6 @@ public:
         return nullptr;
     }
 
-    /// Keeps a table. It is made outside the lock: two threads may each make one, which does no
-    /// harm.
-    void keep(std::shared_ptr<const Table> table) {
-        const std::lock_guard lock(mutex_);
-        tables_.push_front(std::move(table));
-        if (tables_.size() > most_) {
-            tables_.pop_back();
-        }
-    }
-
-private:
     std::size_t most_;
     std::mutex mutex_;
     std::list<std::shared_ptr<const Table>> tables_;

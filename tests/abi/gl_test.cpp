@@ -167,6 +167,32 @@ protected:
         EXPECT_EQ(api.context_destroy(context), LODESTAR_OK);
         GlTest::TearDown();
     }
+    /// Plans an hour for all that a host may draw. @return the plan
+    LodestarPlan planned(double hour) {
+        LodestarFrame frame{};
+        frame.struct_size = sizeof frame;
+        frame.hour = hour;
+        LodestarPlan plan = 0;
+        EXPECT_EQ(api.plan_make(context, &frame, &plan), LODESTAR_OK) << api.last_error(context);
+        return plan;
+    }
+    LodestarStatus update(double hour) { return gl->execute(context, planned(hour)); }
+    /// The layer of a light in a plan; -1: the frame is not lit by it.
+    int layerOf(LodestarLight light, LodestarPlan plan) {
+        std::size_t count = 0;
+        EXPECT_GE(api.plan_lights(context, plan, nullptr, &count), LODESTAR_OK);
+        std::vector<LodestarPlannedLight> lit(count);
+        for (LodestarPlannedLight& one : lit) {
+            one.struct_size = sizeof one;
+        }
+        EXPECT_EQ(api.plan_lights(context, plan, lit.data(), &count), LODESTAR_OK);
+        for (const LodestarPlannedLight& one : lit) {
+            if (one.light == light) {
+                return static_cast<int>(one.layer);
+            }
+        }
+        return -1;
+    }
     [[nodiscard]] LodestarGlTexture texture(int which) const {
         LodestarGlTexture texture{};
         texture.struct_size = sizeof texture;
@@ -181,18 +207,17 @@ protected:
 
 TEST_F(AbiGl, TexelsArriveAndGo) {
     lights.make(api, context);
-    EXPECT_EQ(gl->update(context), LODESTAR_E_ARG) << "not attached";
+    EXPECT_EQ(update(12.0), LODESTAR_E_ARG) << "not attached";
     EXPECT_EQ(gl->attach(context, nullptr), LODESTAR_E_ARG);
     EXPECT_EQ(gl->attach(context, [](const char*) -> void* { return nullptr; }),
               LODESTAR_E_UNSUPPORTED);
     ASSERT_EQ(gl->attach(context, procedure), LODESTAR_OK);
     EXPECT_EQ(gl->attach(context, procedure), LODESTAR_E_ARG) << "twice";
-    std::uint32_t layer = 99;
-    EXPECT_EQ(gl->layer(context, lights.skyLight, &layer), LODESTAR_E_ARG);
-    ASSERT_EQ(api.set_hour(context, 12.0), LODESTAR_OK);
-    ASSERT_EQ(gl->update(context), LODESTAR_OK);
+    EXPECT_EQ(gl->execute(context, 99), LODESTAR_E_ARG) << "no such plan";
+    const LodestarPlan plan = planned(12.0);
+    ASSERT_EQ(gl->execute(context, plan), LODESTAR_OK);
     for (const LodestarLight light : {lights.skyLight, lights.sunLight}) {
-        ASSERT_EQ(gl->layer(context, light, &layer), LODESTAR_OK);
+        const auto layer = static_cast<std::size_t>(layerOf(light, plan));
         for (int which = 0; which < 3; ++which) {
             const LodestarGlTexture made = texture(which);
             ASSERT_EQ(made.layers, 2u);
@@ -204,22 +229,23 @@ TEST_F(AbiGl, TexelsArriveAndGo) {
             glBindTexture(made.target, made.name);
             glPixelStorei(GL_PACK_ALIGNMENT, 1);
             const bool shared = made.internal_format == GL_RGB9_E5;
-            glGetTexImage(made.target, 0, shared ? GL_RGB : GL_RGBA,
-                          shared ? GL_UNSIGNED_INT_5_9_9_9_REV : GL_FLOAT, got.data());
+            const GLenum type = shared                               ? GL_UNSIGNED_INT_5_9_9_9_REV
+                                : made.internal_format == GL_RGBA16F ? GL_HALF_FLOAT
+                                                                     : GL_FLOAT;
+            glGetTexImage(made.target, 0, shared ? GL_RGB : GL_RGBA, type, got.data());
             EXPECT_EQ(std::memcmp(got.data() + layer * size, expected.data(), size), 0) << which;
         }
     }
     // At night the sun keeps its layer and is not asked for; names stay.
     const LodestarGlTexture before = texture(LODESTAR_TEXELS_MAP);
-    ASSERT_EQ(api.set_hour(context, 1.0), LODESTAR_OK);
-    ASSERT_EQ(gl->update(context), LODESTAR_OK);
+    ASSERT_EQ(update(1.0), LODESTAR_OK);
     EXPECT_EQ(texture(LODESTAR_TEXELS_MAP).name, before.name);
     ASSERT_EQ(gl->detach(context, 1), LODESTAR_OK);
     EXPECT_EQ(glIsTexture(before.name), GL_FALSE);
-    EXPECT_EQ(gl->update(context), LODESTAR_E_ARG);
+    EXPECT_EQ(update(1.0), LODESTAR_E_ARG);
     // A context that was lost: nothing is called.
     ASSERT_EQ(gl->attach(context, procedure), LODESTAR_OK);
-    ASSERT_EQ(gl->update(context), LODESTAR_OK);
+    ASSERT_EQ(update(12.0), LODESTAR_OK);
     const LodestarGlTexture lost = texture(LODESTAR_TEXELS_MAP);
     ASSERT_EQ(gl->detach(context, 0), LODESTAR_OK);
     EXPECT_EQ(glIsTexture(lost.name), GL_TRUE);
@@ -263,14 +289,12 @@ TEST_F(AbiGl, TheHostsStateStays) {
             ASSERT_EQ(api.light_destroy(context, lights.sunLight), LODESTAR_OK);
             lights.make(api, context);
         }
-        ASSERT_EQ(api.set_hour(context, 6.0 + 0.1 * round), LODESTAR_OK);
-        ASSERT_EQ(gl->update(context), LODESTAR_OK);
+        ASSERT_EQ(update(6.0 + 0.1 * round), LODESTAR_OK);
         ASSERT_EQ(stateOf(), before) << "round " << round;
     }
     const LodestarGlTexture map = texture(LODESTAR_TEXELS_MAP);
     std::size_t size = 0;
-    std::uint32_t layer = 0;
-    ASSERT_EQ(gl->layer(context, lights.skyLight, &layer), LODESTAR_OK);
+    const auto layer = static_cast<std::size_t>(layerOf(lights.skyLight, planned(11.9)));
     ASSERT_EQ(api.light_texels(context, lights.skyLight, LODESTAR_TEXELS_MAP, nullptr, &size),
               LODESTAR_MORE);
     std::vector<unsigned char> expected(size), got(2 * size);
@@ -291,15 +315,13 @@ TEST_F(AbiGl, TheHostsStateStays) {
 TEST_F(AbiGl, ASteadyFrameMakesNoCall) {
     ASSERT_EQ(gl->attach(context, countedProcedure), LODESTAR_OK);
     lights.make(api, context);
-    ASSERT_EQ(api.set_hour(context, 12.0), LODESTAR_OK);
     calls = {};
-    ASSERT_EQ(gl->update(context), LODESTAR_OK);
+    ASSERT_EQ(update(12.0), LODESTAR_OK);
     EXPECT_EQ(calls.uploads, 6) << "three textures of two lights";
-    EXPECT_EQ(calls.queries, 10) << "two bindings and eight ways to unpack";
+    EXPECT_EQ(calls.queries, 11) << "three bindings and eight ways to unpack";
     calls = {};
     for (int frame = 0; frame < 10; ++frame) { // the sun moves, its texels do not change
-        ASSERT_EQ(api.set_hour(context, 12.0 + 0.01 * frame), LODESTAR_OK);
-        ASSERT_EQ(gl->update(context), LODESTAR_OK);
+        ASSERT_EQ(update(12.0 + 0.01 * frame), LODESTAR_OK);
     }
     EXPECT_EQ(calls.uploads + calls.queries + calls.changes, 0);
     ASSERT_EQ(gl->detach(context, 1), LODESTAR_OK);
@@ -310,7 +332,6 @@ TEST_F(AbiGl, AHostThatResetsIsAskedNothing) {
     ASSERT_EQ(gl->attach(context, countedProcedure), LODESTAR_OK);
     ASSERT_EQ(gl->set_host_resets(context, 1), LODESTAR_OK);
     lights.make(api, context);
-    ASSERT_EQ(api.set_hour(context, 12.0), LODESTAR_OK);
     const auto initial = stateOf();
     GLuint array = 0, buffer = 0;
     glGenTextures(1, &array);
@@ -327,7 +348,7 @@ TEST_F(AbiGl, AHostThatResetsIsAskedNothing) {
     glPixelStorei(GL_UNPACK_SWAP_BYTES, 1);
     glPixelStorei(GL_UNPACK_LSB_FIRST, 1);
     calls = {};
-    ASSERT_EQ(gl->update(context), LODESTAR_OK);
+    ASSERT_EQ(update(12.0), LODESTAR_OK);
     EXPECT_EQ(calls.uploads, 6);
     EXPECT_EQ(calls.queries, 0);
     EXPECT_EQ(stateOf(), initial) << "what the header says is left";
@@ -336,7 +357,7 @@ TEST_F(AbiGl, AHostThatResetsIsAskedNothing) {
     glBindTexture(GL_TEXTURE_2D_ARRAY, array);
     ASSERT_EQ(api.light_destroy(context, lights.sunLight), LODESTAR_OK);
     const auto before = stateOf();
-    ASSERT_EQ(gl->update(context), LODESTAR_OK);
+    ASSERT_EQ(update(12.0), LODESTAR_OK);
     EXPECT_EQ(stateOf(), before);
     ASSERT_EQ(gl->detach(context, 1), LODESTAR_OK);
     glDeleteTextures(1, &array);
@@ -348,12 +369,12 @@ TEST_F(AbiGl, AHostThatResetsIsAskedNothing) {
 TEST_F(AbiGl, AnEndedTextureIsNotBoundAgain) {
     ASSERT_EQ(gl->attach(context, procedure), LODESTAR_OK);
     lights.make(api, context);
-    ASSERT_EQ(gl->update(context), LODESTAR_OK);
+    ASSERT_EQ(update(12.0), LODESTAR_OK);
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture(LODESTAR_TEXELS_LAMBERT).name);
     ASSERT_EQ(api.light_destroy(context, lights.skyLight), LODESTAR_OK);
     ASSERT_EQ(api.light_destroy(context, lights.sunLight), LODESTAR_OK);
     ASSERT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
-    ASSERT_EQ(gl->update(context), LODESTAR_OK); // no lights: the textures end, none is made
+    ASSERT_EQ(update(12.0), LODESTAR_OK); // no lights: the textures end, none is made
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
     GLint bound = -1;
     glGetIntegerv(GL_TEXTURE_BINDING_2D_ARRAY, &bound);

@@ -4,7 +4,6 @@
 // message.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -12,11 +11,10 @@
 #include <thread>
 #include <vector>
 
-#include <dlfcn.h>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
+#include "host.h"
 #include "io/document_file.h"
 #include "lighting/day_lookup.h"
 #include "lodestar/lodestar.h"
@@ -24,110 +22,12 @@
 namespace lodestar::testing {
 namespace {
 
-/// The library, loaded as a host loads it.
-class Library {
-public:
-    Library() : handle_(dlopen(LODESTAR_LIBRARY, RTLD_NOW | RTLD_LOCAL)) {
-        EXPECT_NE(handle_, nullptr) << dlerror();
-    }
-    Library(const Library&) = delete;
-    Library& operator=(const Library&) = delete;
-    ~Library() { dlclose(handle_); }
-    [[nodiscard]] LodestarStatus get(std::uint32_t abi, LodestarApi& api) const {
-        using Get = LodestarStatus (*)(std::uint32_t, LodestarApi*);
-        return reinterpret_cast<Get>(dlsym(handle_, "lodestar_get_api"))(abi, &api);
-    }
-    [[nodiscard]] LodestarApi api() const {
-        LodestarApi api{};
-        api.struct_size = sizeof api;
-        EXPECT_EQ(get(LODESTAR_ABI_VERSION, api), LODESTAR_OK);
-        return api;
-    }
-
-private:
-    void* handle_;
-};
-
-/// A host that counts its blocks and can run out of them.
-struct CountingHost {
-    std::size_t alive = 0;
-    std::size_t calls = 0;
-    std::size_t failAt = std::numeric_limits<std::size_t>::max(); ///< the call that gives null
-    std::vector<std::string> logged;
-
-    [[nodiscard]] LodestarHost host() {
-        LodestarHost host{};
-        host.struct_size = sizeof host;
-        host.user = this;
-        host.allocate = [](void* user, std::size_t size) -> void* {
-            auto& self = *static_cast<CountingHost*>(user);
-            if (self.calls++ == self.failAt) {
-                return nullptr;
-            }
-            ++self.alive;
-            return std::malloc(size);
-        };
-        host.release = [](void* user, void* memory) {
-            --static_cast<CountingHost*>(user)->alive;
-            std::free(memory);
-        };
-        host.log = [](void* user, std::int32_t number, const char* text) {
-            static_cast<CountingHost*>(user)->logged.push_back(std::to_string(number) + " " + text);
-        };
-        return host;
-    }
-};
-
-/// A sun of one key.
-struct Sun {
-    LodestarStop stops[2]{};
-    LodestarKey key{};
-    LodestarLightDesc desc{};
-
-    Sun() { reset(); }
-    Sun(const Sun&) = delete; // the description points into it
-    Sun& operator=(const Sun&) = delete;
-    void reset() {
-        stops[0] = {0, {1, 0.9, 0.8}, 10};
-        stops[1] = {3, {1, 0.9, 0.8}, 10};
-        key = {};
-        desc = {};
-        key.struct_size = sizeof key;
-        key.stops = stops;
-        key.stop_count = 2;
-        key.hour = 12.0;
-        key.tint[0] = key.tint[1] = key.tint[2] = 1.0;
-        desc.struct_size = sizeof desc;
-        desc.kind = LODESTAR_SUN;
-        desc.axis[1] = 2.0;
-        desc.key_count = 1;
-        desc.key_stride = sizeof key;
-        desc.keys = &key;
-    }
-};
+using Abi = AbiHost;
 
 std::string clearSky() {
     std::ifstream file(std::string(LODESTAR_SAMPLES) + "/skies/clear.lodestar.json");
     return {std::istreambuf_iterator<char>(file), {}};
 }
-
-class Abi : public ::testing::Test {
-protected:
-    void SetUp() override {
-        const LodestarHost host = counting.host();
-        ASSERT_EQ(api.context_create(&host, &context), LODESTAR_OK);
-    }
-    void TearDown() override {
-        if (context != nullptr) {
-            EXPECT_EQ(api.context_destroy(context), LODESTAR_OK);
-        }
-        EXPECT_EQ(counting.alive, 0u) << "blocks of the host are left";
-    }
-    Library library;
-    LodestarApi api = library.api();
-    CountingHost counting;
-    LodestarContext* context = nullptr;
-};
 
 TEST(AbiEntry, TablesOfOtherVersions) {
     const Library library;
@@ -216,7 +116,7 @@ TEST_F(Abi, ALightsTexelsAndState) {
     const std::pair<int, std::size_t> sizes[] = {
         {LODESTAR_TEXELS_MAP, 4 * layout.columns * layout.rows},
         {LODESTAR_TEXELS_LAMBERT, 16 * layout.lambert_columns},
-        {LODESTAR_TEXELS_GRADIENT, 16 * layout.gradient_columns}};
+        {LODESTAR_TEXELS_GRADIENT, 8 * layout.gradient_columns}};
     for (const auto& [which, expected] : sizes) {
         std::size_t size = 0;
         EXPECT_EQ(api.light_texels(context, light, which, nullptr, &size), LODESTAR_MORE);
@@ -371,7 +271,19 @@ LodestarStatus afternoon(const LodestarApi& api, LodestarContext* context,
     LodestarStatus status = api.document_load(context, text.data(), text.size(), &document);
     status = status != LODESTAR_OK ? status : api.document_apply(context, document);
     status = status != LODESTAR_OK ? status : api.light_create(context, &sun.desc, &light);
-    status = status != LODESTAR_OK ? status : api.set_hour(context, 16.0);
+    LodestarEnvironmentDesc desc{};
+    desc.struct_size = sizeof desc;
+    desc.layout = LODESTAR_ANALYTIC;
+    desc.analytic = "gradient:0,1";
+    desc.face_width = 4;
+    LodestarEnvironment environment = 0;
+    status = status != LODESTAR_OK ? status : api.environment_create(context, &desc, &environment);
+    status = status != LODESTAR_OK ? status : api.set_environment(context, environment);
+    LodestarFrame frame{};
+    frame.struct_size = sizeof frame;
+    frame.hour = 16.0;
+    LodestarPlan plan = 0;
+    status = status != LODESTAR_OK ? status : api.plan_make(context, &frame, &plan);
     return status != LODESTAR_OK ? status : api.radiance(context, up, 32.0, rgb);
 }
 
@@ -379,7 +291,7 @@ LodestarStatus afternoon(const LodestarApi& api, LodestarContext* context,
 TEST_F(Abi, MemoryThatRunsOutIsAStatus) {
     // One key and one light: a small document, so that every allocation can have its turn.
     const std::string text =
-        R"({"lodestar": 1, "lights": [{"kind": "sky", "keys": [{"hour": 12, "gradient": {"stops": [
+        R"({"lodestar": 1, "lights": [{"kind": "sky", "add": true, "keys": [{"hour": 12, "gradient": {"stops": [
             {"at": 90, "color": [0.1, 0.2, 0.4]}, {"at": -90, "color": [1, 1, 1]}]}}]}]})";
     counting.calls = 0;
     ASSERT_EQ(afternoon(api, context, text), LODESTAR_OK);
