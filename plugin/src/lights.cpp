@@ -82,7 +82,8 @@ core::Result<lighting::DayLight> lightOf(const LodestarLightDesc& desc, core::Ta
 lighting::DayMoment look(PlacedLight& light, double hour) {
     const lighting::DayMoment moment = lighting::momentAt(light.map.day(), hour);
     const auto content = lighting::LightMap::contentOf(moment);
-    if (!(content == light.content)) {
+    // A sun that has set is not asked for: it rises with the texels that it had.
+    if (moment.visibility > 0.0 && !(content == light.content)) {
         light.content = content;
         ++light.version;
     }
