@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Memory that outlives the call it is made in: tables kept for the next map, say. Where callers lend
-// a library their memory, such tables must not be of it.
+// Memory that outlives the call it is made in: tables kept for the next map, say. Where callers
+// lend a library their memory, such tables must not be of it.
 #pragma once
 
 namespace lodestar::core {

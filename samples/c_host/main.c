@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * lodestar-c-host: what a host in plain C does, without OpenGL. It loads a lighting document (or paints a
- * sky itself), walks through a day and prints what a surface facing up receives. A renderer would upload
- * light_texels where it prints here.
+ * sky itself), walks through a day and prints what a surface facing up receives and how much a renderer
+ * would upload, and says the last frame's plan in words.
  */
 #include <lodestar/lodestar.h>
 
@@ -62,20 +62,36 @@ static LodestarStatus load(const LodestarApi *api, LodestarContext *context, con
     return status == LODESTAR_OK ? api->document_apply(context, document) : status;
 }
 
+static LodestarStatus say(const LodestarApi *api, LodestarContext *context, LodestarPlan plan) {
+    char text[4096];
+    size_t size = sizeof text;
+    const LodestarStatus status = api->plan_text(context, plan, text, &size);
+    if (status == LODESTAR_OK) {
+        fputs(text, stdout);
+    }
+    return status;
+}
+
 static LodestarStatus walk(const LodestarApi *api, LodestarContext *context) {
     const double up[3] = {0, 1, 0};
+    LodestarPlan plan = 0;
     for (int hour = 0; hour < 24; hour += 3) {
+        const LodestarFrame frame = {.struct_size = sizeof frame, .hour = hour};
+        LodestarWork work = {.struct_size = sizeof work};
         double rgb[3] = {0, 0, 0};
-        LodestarStatus status = api->set_hour(context, hour);
+        LodestarStatus status = api->plan_make(context, &frame, &plan);
+        if (status == LODESTAR_OK) {
+            status = api->plan_work(context, plan, &work);
+        }
         if (status == LODESTAR_OK) {
             status = api->lambert(context, up, rgb);
         }
         if (status != LODESTAR_OK) {
             return status;
         }
-        printf("%02d:00  %.4f %.4f %.4f\n", hour, rgb[0], rgb[1], rgb[2]);
+        printf("%02d:00  %.4f %.4f %.4f  %lu bytes\n", hour, rgb[0], rgb[1], rgb[2], (unsigned long)work.upload_bytes);
     }
-    return LODESTAR_OK;
+    return say(api, context, plan);
 }
 
 int main(int argc, char **argv) {

@@ -76,6 +76,7 @@ function target_of(include, from,    p, n) {
     if (p[1] == "..") return ".."
     if (p[1] == "lodestar") return include == "lodestar/lodestar.h" ? "plugin" : "shaders/lodestar"
     if (p[1] == "host") return "shaders/host"
+    if (p[1] == "plugin" && include ~ /\.glsl$/) return "shaders/plugin"
     if (p[1] == "hosts") return "plugin/hosts"
     if (("runtime/" p[1]) in uses) return "runtime/" p[1]
     if (("editor/" p[1]) in uses) return "editor/" p[1]
