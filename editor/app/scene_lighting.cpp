@@ -27,7 +27,8 @@ core::Result<DistantLight> documentEnvironment(const OpenedDocument& opened, int
     if (!loaded) {
         return core::inFile(loaded.error(), *source);
     }
-    loaded->base = lighting::placed(std::move(loaded->base), wanted.rotation, wanted.ev);
+    loaded->base =
+        lighting::placed(std::move(loaded->base), lighting::aboutUp(wanted.rotation), wanted.ev);
     return DistantLight{*source, std::move(*loaded)};
 }
 

@@ -19,6 +19,10 @@ LodestarMaterial materialOf(const io::GltfMaterial& from) {
     put(from.baseColor, material.base_color);
     material.metallic = from.metallic;
     material.roughness = from.roughness;
+    material.has_dielectric = 1;
+    material.ior = from.ior;
+    material.specular = from.specular;
+    put(from.specularColor, material.specular_color);
     if (from.blinnPhong) {
         // Given at all, even empty, they win: one that is there is named.
         material.given = LODESTAR_MATERIAL_EXPONENT;

@@ -41,12 +41,17 @@ LodestarStatus contextCreate(const LodestarHost* host, LodestarContext** context
     if ((given.allocate == nullptr) != (given.release == nullptr)) {
         return refuse(LODESTAR_E_ARG, "allocate and release come both or none");
     }
+    const std::optional<glm::dmat3> frame = frameOf(given);
+    if (!frame) {
+        return refuse(LODESTAR_E_ARG, "up and north are no two directions");
+    }
     const Allocator allocator{given.user, given.allocate, given.release};
     const AllocatorScope scope(allocator);
     try {
         auto made = std::make_unique<LodestarContext>();
         made->allocator = allocator;
         made->host = given;
+        made->hostFromDocument = *frame;
         made->kernels = std::make_shared<lighting::RsrmKernels>();
         *context = made.release();
         return LODESTAR_OK;
@@ -90,7 +95,7 @@ LodestarStatus makeLight(LodestarContext& context, const LodestarLightDesc* desc
                             "the light's struct_size is none, or members are unknown");
     }
     core::Tally warnings;
-    auto light = lightOf(given, warnings);
+    auto light = lightOf(given, context.hostFromDocument, warnings);
     if (!light) {
         return context.fail(LODESTAR_E_ARG, light.error());
     }
@@ -267,7 +272,7 @@ LodestarStatus lightState(LodestarContext* context, LodestarLight handle,
         if (light == nullptr) {
             return noLight(*context);
         }
-        const lighting::DayMoment moment = look(*light, context->hour);
+        const lighting::DayMoment moment = look(*context, *light);
         LodestarLightState answer{};
         answer.kind =
             light->map.day().kind == lighting::LightKind::Sky ? LODESTAR_SKY : LODESTAR_SUN;
@@ -292,7 +297,7 @@ LodestarStatus lightTexels(LodestarContext* context, LodestarLight handle, int32
         if (size == nullptr || which < LODESTAR_TEXELS_MAP || which > LODESTAR_TEXELS_GRADIENT) {
             return context->fail(LODESTAR_E_ARG, "no place for the size, or no such texels");
         }
-        if (!(look(*light, context->hour).visibility > 0.0)) {
+        if (!(look(*context, *light).visibility > 0.0)) {
             return context->fail(LODESTAR_E_ARG, "a sun below the horizon has no texels");
         }
         const lighting::LightMap::Blend& blend = *texelsOf(*light);

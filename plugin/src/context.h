@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
+
 #include "core/result.h"
 #include "core/tally.h"
 #include "document/document.h"
@@ -101,6 +103,7 @@ struct LodestarContext {
     std::uint32_t magic = kMagic;
     lodestar::plugin::Allocator allocator;
     LodestarHost host{};
+    glm::dmat3 hostFromDocument{1.0}; ///< a rotation
     std::thread::id thread = std::this_thread::get_id();
     char error[512] = "";
 
@@ -208,17 +211,22 @@ template <class T>
     return LODESTAR_OK;
 }
 
-/// A light from a host's description. @errors InputRefused as lighting::repaired
-[[nodiscard]] core::Result<lighting::DayLight> lightOf(const LodestarLightDesc& desc,
-                                                       core::Tally& warnings);
+/// The rotation that brings a document's up and north to a host's. @return nothing where those are
+/// none
+[[nodiscard]] std::optional<glm::dmat3> frameOf(const LodestarHost& host);
+
+/// A light from a host's description, in a document's frame.
+/// @errors InputRefused as lighting::repaired
+[[nodiscard]] core::Result<lighting::DayLight>
+lightOf(const LodestarLightDesc& desc, const glm::dmat3& hostFromDocument, core::Tally& warnings);
 
 /// Two vec4: diffuse, exponent; f0, 1. @return false if a value is out of range
 [[nodiscard]] bool packMaterial(const LodestarMaterial& material, float packed[8]);
 /// What a document says of a material replaces what the host's says.
 void standOver(const document::Material& from, LodestarMaterial& material, core::Tally& warnings);
 
-/// A light at the context's hour; its version follows its content.
-[[nodiscard]] lighting::DayMoment look(PlacedLight& light, double hour);
+/// A light at the context's hour, its axis in the host's frame; its version follows its content.
+[[nodiscard]] lighting::DayMoment look(const LodestarContext& context, PlacedLight& light);
 /// Its texels, made when they are first asked for. @pre looked at
 [[nodiscard]] const std::shared_ptr<const lighting::LightMap::Blend>& texelsOf(PlacedLight& light);
 

@@ -22,7 +22,7 @@ LodestarStatus create(LodestarContext* context, const LodestarEnvironmentDesc* d
                                  "the environment's struct_size is none, or members are unknown");
         }
         core::Tally warnings;
-        auto made = PlacedEnvironment::make(given, warnings);
+        auto made = PlacedEnvironment::make(given, context->hostFromDocument, warnings);
         if (!made) {
             return context->fail(LODESTAR_E_ARG, made.error());
         }

@@ -113,6 +113,7 @@ core::Result<void> checkPlace(const LodestarEnvironmentDesc& desc) {
 } // namespace
 
 core::Result<PlacedEnvironment> PlacedEnvironment::make(const LodestarEnvironmentDesc& desc,
+                                                        const glm::dmat3& hostFromDocument,
                                                         core::Tally& warnings) {
     if (auto good = checkPlace(desc); !good) {
         return good.error();
@@ -134,7 +135,12 @@ core::Result<PlacedEnvironment> PlacedEnvironment::make(const LodestarEnvironmen
     if (!cube) {
         return cube.error();
     }
-    result.show(lighting::placed(std::move(*cube), desc.rotation, desc.ev));
+    // Six faces are the host's already, turned about its own way up; others are a document's.
+    const glm::quat frame(glm::quat_cast(hostFromDocument));
+    const glm::quat own =
+        desc.layout == LODESTAR_CUBE ? glm::conjugate(frame) : glm::quat(1.0f, 0.0f, 0.0f, 0.0f);
+    result.show(lighting::placed(std::move(*cube), frame * lighting::aboutUp(desc.rotation) * own,
+                                 desc.ev));
     return result;
 }
 

@@ -22,6 +22,7 @@ class PlacedEnvironment {
 public:
     /// @errors InputRefused with a JSON pointer of the member
     [[nodiscard]] static core::Result<PlacedEnvironment> make(const LodestarEnvironmentDesc& desc,
+                                                              const glm::dmat3& hostFromDocument,
                                                               core::Tally& warnings);
 
     [[nodiscard]] const std::string& name() const { return name_; }

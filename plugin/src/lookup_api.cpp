@@ -45,7 +45,7 @@ LodestarStatus sum(LodestarContext* context, const double direction[3],
         glm::dvec3 result = ofEnvironment(*context, request);
         for (const LodestarLight handle : context->order) {
             PlacedLight& light = *context->lights.find(handle);
-            const lighting::DayMoment moment = look(light, context->hour);
+            const lighting::DayMoment moment = look(*context, light);
             if (moment.visibility > 0.0) {
                 const double halfChord = 0.5 * glm::length(request.direction - moment.axis);
                 result +=

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 
 #include "context.h"
 #include "lodestar/lobes.glsl"
@@ -25,6 +26,24 @@ void put(const glm::dvec3& from, double into[3]) {
     }
 }
 
+/// Whether what is said of the dielectric is in range.
+bool isDielectric(const LodestarMaterial& material) {
+    const double* color = material.specular_color;
+    return material.has_dielectric == 0 ||
+           ((material.ior == 0.0 || material.ior >= 1.0) && std::isfinite(material.ior) &&
+            isReflectance(material.specular) && std::all_of(color, color + 3, [](double value) {
+                return value >= 0.0 && std::isfinite(value);
+            }));
+}
+
+glm::vec3 dielectricF0(const LodestarMaterial& material) {
+    return material.has_dielectric == 0
+               ? shader::lodestar_f0FromMetallic(glm::vec3(0.0f), 0.0f)
+               : shader::lodestar_f0OfDielectric(static_cast<float>(material.ior),
+                                                 vec3Of(material.specular_color),
+                                                 static_cast<float>(material.specular));
+}
+
 } // namespace
 
 bool packMaterial(const LodestarMaterial& material, float packed[8]) {
@@ -34,13 +53,13 @@ bool packMaterial(const LodestarMaterial& material, float packed[8]) {
     if ((given & ~kAll) != 0 || !areReflectances(material.base_color) ||
         !isReflectance(material.metallic) || !isReflectance(material.roughness) ||
         !areReflectances(material.diffuse) || !areReflectances(material.f0) ||
-        !(material.exponent >= 0.0)) {
+        !(material.exponent >= 0.0) || !isDielectric(material)) {
         return false;
     }
     const glm::vec3 base = vec3Of(material.base_color);
     const auto metallic = static_cast<float>(material.metallic);
     glm::vec3 diffuse = shader::lodestar_diffuseFromMetallic(base, metallic);
-    glm::vec3 f0 = shader::lodestar_f0FromMetallic(base, metallic);
+    glm::vec3 f0 = glm::mix(dielectricF0(material), base, metallic);
     float exponent = shader::lodestar_exponentFromRoughness(static_cast<float>(material.roughness));
     if (given != 0) { // as extras.lodestar of a glTF: metallic and roughness say nothing then
         const auto has = [&](std::uint32_t bit) { return (given & bit) != 0; };

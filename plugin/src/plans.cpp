@@ -66,7 +66,7 @@ std::vector<lighting::DayMoment> describeLights(LodestarContext& context, plan::
     std::vector<lighting::DayMoment> moments;
     for (std::size_t i = 0; i < context.order.size() && i < LODESTAR_MAX_LIGHTS_SHOWN; ++i) {
         PlacedLight& light = *context.lights.find(context.order[i]);
-        const lighting::DayMoment moment = look(light, context.hour);
+        const lighting::DayMoment moment = look(context, light);
         plan::RsrmLightView view;
         view.subject =
             light.map.day().name.empty() ? "light " + std::to_string(i) : light.map.day().name;

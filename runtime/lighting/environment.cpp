@@ -168,10 +168,13 @@ Cubemap turned(const Cubemap& cube, const glm::quat& worldFromEnvironment) {
     return result;
 }
 
-Cubemap placed(Cubemap cube, double rotation, double ev) {
-    if (rotation != 0.0) {
-        cube =
-            turned(cube, glm::angleAxis(static_cast<float>(rotation), glm::vec3(0.0f, 1.0f, 0.0f)));
+glm::quat aboutUp(double angle) {
+    return glm::angleAxis(static_cast<float>(angle), glm::vec3(0.0f, 1.0f, 0.0f));
+}
+
+Cubemap placed(Cubemap cube, const glm::quat& worldFromEnvironment, double ev) {
+    if (worldFromEnvironment != glm::quat(1.0f, 0.0f, 0.0f, 0.0f)) {
+        cube = turned(cube, worldFromEnvironment);
     }
     if (ev != 0.0) {
         const auto factor = static_cast<float>(std::exp2(ev));

@@ -71,9 +71,12 @@ using AnalyticEnvironment = std::variant<ConstantEnvironment, GradientEnvironmen
 /// A cube's level 0 turned. @param worldFromEnvironment unit
 [[nodiscard]] Cubemap turned(const Cubemap& cube, const glm::quat& worldFromEnvironment);
 
-/// A cube's level 0 as a document places it: turned about +Y, counter-clockwise seen from above,
-/// its radiance x 2^ev, at most 1e9. @param rotation radians  @param ev [-64, 64]
-[[nodiscard]] Cubemap placed(Cubemap cube, double rotation, double ev);
+/// A rotation about +Y, counter-clockwise seen from above. @param angle radians
+[[nodiscard]] glm::quat aboutUp(double angle);
+
+/// A cube's level 0 as a document places it: turned, its radiance x 2^ev, at most 1e9.
+/// @param worldFromEnvironment unit  @param ev [-64, 64]
+[[nodiscard]] Cubemap placed(Cubemap cube, const glm::quat& worldFromEnvironment, double ev);
 
 /// Repairs radiance in place to [0, 1e9]: NaN and negative values become 0, +infinity and larger
 /// values 1e9; each is counted.

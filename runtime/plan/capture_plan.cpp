@@ -22,8 +22,8 @@ void planCaptures(const PlanInput& input, EffectPlan& result) {
         if (missing == 0) {
             effect.reason = "it shows what it has captured, and nothing asks for it anew";
         } else if (drawn == 0) {
-            effect.reason =
-                std::to_string(missing) + " faces are missing, and the frame has no face left";
+            effect.reason = std::to_string(missing) + (missing == 1 ? " face is" : " faces are") +
+                            " missing, and the frame has no face left";
         } else {
             effect.decision = Decision::Run;
             effect.reason = std::to_string(drawn) + " of " + std::to_string(missing) +

@@ -25,9 +25,10 @@ core::Result<void> setEnvironment(const document::Document& document, const std:
     if (!loaded) {
         return core::inFile(loaded.error(), *source);
     }
-    renderer.setEnvironment(*source, lighting::placed(std::move(loaded->base),
-                                                      document.environment->rotation,
-                                                      document.environment->ev));
+    const document::Environment& wanted = *document.environment;
+    renderer.setEnvironment(
+        *source,
+        lighting::placed(std::move(loaded->base), lighting::aboutUp(wanted.rotation), wanted.ev));
     return {};
 }
 

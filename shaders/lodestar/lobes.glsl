@@ -122,6 +122,13 @@ LODESTAR_FN vec3 lodestar_f0FromMetallic(vec3 baseColor, Real metallic) {
     return mix(vec3(LODESTAR_LITERAL(0.04)), baseColor, metallic);
 }
 
+/// F0 where a surface is no metal: min(F0 of the index x specular colour, 1) x specular factor; an
+/// index of 0 gives an F0 of 1. [KHR_materials_ior, KHR_materials_specular]
+LODESTAR_FN vec3 lodestar_f0OfDielectric(Real ior, vec3 specularColor, Real specular) {
+    Real ratio = (ior - 1.0f) / (ior + 1.0f);
+    return min(ratio * ratio * specularColor, vec3(1.0f)) * specular;
+}
+
 LODESTAR_END
 
 #endif

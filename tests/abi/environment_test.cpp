@@ -295,6 +295,71 @@ TEST_F(AbiEnvironment, ACaptureIsJobsForTheHost) {
     EXPECT_EQ(cube(probe, LODESTAR_TEXELS_ENVIRONMENT).faces_missing, 6u);
 }
 
+/// Radiance in a direction and over Lambert's lobe, of a context whose up is +Z and north +Y.
+class AbiFrame : public AbiEnvironment {
+protected:
+    void SetUp() override {
+        LodestarHost host = counting.host();
+        host.up[2] = 2.0;
+        host.north[1] = 1.0;
+        host.north[2] = 0.5; // taken across up
+        ASSERT_EQ(api.context_create(&host, &context), LODESTAR_OK) << api.last_error(nullptr);
+    }
+};
+
+TEST_F(AbiFrame, UpAndNorthAreTheHosts) {
+    // East red, north green, up blue, and their opposites dark; GL's order +X -X +Y -Y +Z -Z.
+    const char* around = "faces:1/0/0;0/0/0;0/0/1;0/0/0;0/0/0;0/1/0";
+    ASSERT_EQ(api.set_environment(context, make(analytic(around, 8))), LODESTAR_OK);
+    const double east[3] = {1, 0, 0}, north[3] = {0, 1, 0}, up[3] = {0, 0, 1};
+    double rgb[3] = {};
+    const auto seen = [&](const double* direction) {
+        EXPECT_EQ(api.radiance(context, direction, HUGE_VAL, rgb), LODESTAR_OK);
+        return glm::dvec3(rgb[0], rgb[1], rgb[2]);
+    };
+    EXPECT_EQ(seen(east), glm::dvec3(1, 0, 0));
+    EXPECT_EQ(seen(north), glm::dvec3(0, 1, 0));
+    EXPECT_EQ(seen(up), glm::dvec3(0, 0, 1));
+    // Six faces are in the host's own frame.
+    std::vector<float> faces(6 * 4 * 3, 0.0f);
+    for (std::size_t i = 0; i < 4; ++i) {
+        faces[4 * 4 * 3 + 3 * i] = 7.0f; // +Z
+    }
+    ASSERT_EQ(api.set_environment(context, make(pixels(LODESTAR_CUBE, 2, 12, faces, 3))),
+              LODESTAR_OK);
+    EXPECT_EQ(seen(up).r, 7.0);
+    // A sky's axis is up, a sun given by an axis stands there, one on a path is south at noon.
+    ASSERT_EQ(api.set_environment(context, 0), LODESTAR_OK);
+    Sun sun;
+    const auto axisOf = [&] {
+        LodestarLight light = 0;
+        EXPECT_EQ(api.light_create(context, &sun.desc, &light), LODESTAR_OK);
+        LodestarLightState state{};
+        state.struct_size = sizeof state;
+        EXPECT_EQ(api.set_hour(context, 12.0), LODESTAR_OK);
+        EXPECT_EQ(api.light_state(context, light, &state), LODESTAR_OK);
+        return glm::dvec3(state.axis[0], state.axis[1], state.axis[2]);
+    };
+    EXPECT_LT(glm::length(axisOf() - glm::dvec3(0, 1, 0)), 1e-12) << "as given";
+    sun.desc.axis[1] = 0.0;
+    EXPECT_LT(glm::length(axisOf() - glm::dvec3(0, 0, 1)), 1e-12) << "up";
+    sun.desc.has_path = 1;
+    sun.desc.latitude = 45.0;
+    sun.desc.day_of_year = 81;
+    sun.desc.north[1] = 1.0;
+    EXPECT_LT(glm::length(axisOf() - glm::normalize(glm::dvec3(0, -1, 1))), 0.01)
+        << "at an equinox 45 degrees high, within half a day's declination";
+    LodestarContext* none = nullptr;
+    LodestarHost host = counting.host();
+    host.up[2] = 1.0;
+    EXPECT_EQ(api.context_create(&host, &none), LODESTAR_E_ARG) << "no north";
+    host.north[2] = -3.0;
+    EXPECT_EQ(api.context_create(&host, &none), LODESTAR_E_ARG) << "along up";
+    host.north[0] = std::nan("");
+    EXPECT_EQ(api.context_create(&host, &none), LODESTAR_E_ARG);
+    EXPECT_EQ(none, nullptr);
+}
+
 TEST_F(AbiEnvironment, ADocumentNamesItsOwn) {
     const auto of = [&](const std::string& document, std::string& source, double& rotation,
                         double& ev) {

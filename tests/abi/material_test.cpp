@@ -84,6 +84,27 @@ TEST_F(AbiMaterial, MaterialsArePackedAsTheShadingReadsThem) {
     EXPECT_EQ(ask("gold"), LODESTAR_E_ARG) << "stale";
 }
 
+// An index of 2 reflects (1/3)^2 head on, tinted and halved; the metal's half is as it was.
+TEST_F(AbiMaterial, DielectricsHaveAnIndexAndASpecularColour) {
+    LodestarMaterial material = gold();
+    const std::vector<float> before = packed(api, material);
+    material.has_dielectric = 1;
+    material.ior = 2.0;
+    material.specular = 0.5;
+    material.specular_color[0] = 1.0;
+    material.specular_color[1] = 0.5;
+    material.specular_color[2] = 100.0; // at most 1 before it is halved
+    const std::vector<float> got = packed(api, material);
+    const float dielectric[3] = {1.0f / 18.0f, 1.0f / 36.0f, 0.5f};
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_NEAR(got[4 + i], before[4 + i] + 0.5f * (dielectric[i] - 0.04f), 4e-7f) << i;
+        EXPECT_EQ(got[i], before[i]);
+    }
+    material.ior = 0.0;
+    material.metallic = 0.0;
+    EXPECT_EQ(packed(api, material)[4], 0.5f) << "an index of 0 reflects all";
+}
+
 TEST_F(AbiMaterial, MaterialsOutOfRangeAreRefused) {
     float values[8] = {-7.0f};
     const auto refused = [&](const auto& change, LodestarStatus status) {
@@ -99,6 +120,10 @@ TEST_F(AbiMaterial, MaterialsOutOfRangeAreRefused) {
     refused([](LodestarMaterial& m) { m.f0[0] = -1.0; }, LODESTAR_E_ARG);
     refused([](LodestarMaterial& m) { m.exponent = -1.0; }, LODESTAR_E_ARG);
     refused([](LodestarMaterial& m) { m.given = 8; }, LODESTAR_E_ARG);
+    refused([](LodestarMaterial& m) { m.has_dielectric = 1, m.ior = 0.5; }, LODESTAR_E_ARG);
+    refused([](LodestarMaterial& m) { m.has_dielectric = 1, m.specular = 2.0; }, LODESTAR_E_ARG);
+    refused([](LodestarMaterial& m) { m.has_dielectric = 1, m.specular_color[0] = -1.0; },
+            LODESTAR_E_ARG);
     refused([](LodestarMaterial& m) { m.struct_size = 0; }, LODESTAR_E_ABI);
     EXPECT_EQ(api.material_pack(nullptr, values), LODESTAR_E_ABI);
     const LodestarMaterial material = gold();

@@ -317,6 +317,45 @@ TEST(Plan, DrawsOfOneMeshAndMaterialAreOneCall) {
     EXPECT_EQ(calls, result.batches.size());
 }
 
+TEST(Plan, CapturesShareTheBudget) {
+    PlanInput input = scene({ball()});
+    input.captures = {{"lobby", {true, false, true, false, false, true}, true},
+                      {"attic", {false, false, false, false, false, false}, true},
+                      {"cellar", {true, true, true, true, true, true}, false},
+                      {"tower", {false, false, false, true, false, false}, false}};
+    const auto facesOf = [&](int budget) {
+        input.faceBudget = budget;
+        std::vector<std::pair<std::size_t, int>> faces;
+        for (const CaptureFace& face : plan(input).captureFaces) {
+            faces.emplace_back(face.capture, face.face);
+        }
+        return faces;
+    };
+    using Faces = std::vector<std::pair<std::size_t, int>>;
+    EXPECT_EQ(facesOf(0), Faces{});
+    EXPECT_EQ(facesOf(-3), Faces{});
+    EXPECT_EQ(facesOf(4), (Faces{{0, 0}, {0, 2}, {0, 5}, {2, 0}}));
+    EXPECT_EQ(facesOf(100).size(), 10u);
+    input.faceBudget = 4;
+    const EffectPlan result = plan(input);
+    std::vector<std::string> lines;
+    std::uint64_t passes = 0;
+    for (const Effect& one : result.effects) {
+        if (one.effect == "probe-capture") {
+            lines.push_back(one.subject + ": " + one.reason);
+            passes += one.cost.passes;
+        }
+    }
+    EXPECT_EQ(passes, 4u);
+    EXPECT_EQ(lines, (std::vector<std::string>{
+                         "lobby: 3 of 3 missing faces: it is asked for anew",
+                         "attic: it shows what it has captured, and nothing asks for it anew",
+                         "cellar: 1 of 6 missing faces: it shows nothing yet",
+                         "tower: 1 face is missing, and the frame has no face left"}));
+    EXPECT_NE(planText(result).find("probe-capture 'attic': skipped: it shows"), std::string::npos);
+    EXPECT_NE(planText(result).find("probe-capture 'lobby': 3 of 3"), std::string::npos);
+}
+
 TEST(Plan, MirrorsAloneReadTheGradients) {
     DrawView rough = ball();
     rough.sharpest = 2048.0;

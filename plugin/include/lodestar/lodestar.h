@@ -30,8 +30,9 @@
  * null or smaller; nothing is written then.
  * - Errors are statuses; last_error says the same in words, on the thread that it was said to.
  * Memory that runs out gives LODESTAR_E_NOMEM and leaves everything as it was.
- * - Text is UTF-8. Vectors are right-handed; a sky's axis is up, axes point towards the light,
- * colours are linear Rec. 709, hours local solar time in [0, 24).
+ * - Text is UTF-8. Vectors are right-handed, in the host's frame: LodestarHost says which way is up
+ *   and which north, a document's +Y and -Z. A sky's axis is up, axes point towards the light,
+ *   colours are linear Rec. 709, hours local solar time in [0, 24).
  */
 #ifndef LODESTAR_H
 #define LODESTAR_H
@@ -90,6 +91,8 @@ typedef struct LodestarHost {
     void* (*allocate)(void* user, size_t size);
     void (*release)(void* user, void* memory);
     void (*log)(void* user, int32_t number, const char* utf8);
+    /* The host's frame, both or none (then +Y and -Z), of any length: north is taken across up. */
+    double up[3], north[3];
 } LodestarHost;
 
 enum { LODESTAR_SKY = 0, LODESTAR_SUN = 1 };
@@ -124,7 +127,7 @@ typedef struct LodestarLightDesc {
     uint32_t struct_size;
     int32_t kind;        /* LODESTAR_SKY, LODESTAR_SUN */
     const char* name;    /* may be null */
-    double axis[3];      /* towards the light; zero: +Y, counted */
+    double axis[3];      /* towards the light; zero: up, counted */
     uint32_t has_path;   /* a sun's true path, in place of axes */
     int32_t day_of_year; /* 1 to 366 */
     double latitude;     /* degrees */
@@ -138,9 +141,12 @@ typedef struct LodestarLightDesc {
 
 /* Where an environment's light comes from. */
 enum {
-    LODESTAR_LATLONG = 0, /* pixels; centre column -Z, rightwards to +X, top +Y; width = 2 height */
-    LODESTAR_CUBE = 1,    /* pixels of six square faces in OpenGL's order, each below the last */
-    LODESTAR_ANALYTIC = 2, /* a text: `constant:1,1,1`, `gradient:0,1`, `disc:...`, `faces:...` */
+    LODESTAR_LATLONG =
+        0, /* pixels; centre column north, rightwards to east, top up; width = 2 height */
+    LODESTAR_CUBE = 1, /* pixels of six square faces in OpenGL's order, each below the last, in the
+                          host's frame */
+    LODESTAR_ANALYTIC = 2, /* a text: `constant:1,1,1`, `gradient:0,1`, `disc:...`, `faces:...`, in
+                              a document's frame */
     LODESTAR_CAPTURED = 3  /* what the host draws for the face jobs of plans: a static probe */
 };
 
@@ -153,7 +159,7 @@ typedef struct LodestarEnvironmentDesc {
     uint32_t width, height;       /* of the pixels */
     uint32_t channels;            /* 3, or 4 of which the last is not read */
     uint32_t face_width;          /* of the cube that is made, texels: 1 to 4096; 0 is 256 */
-    double rotation;              /* radians about +Y, counter-clockwise seen from above */
+    double rotation;              /* radians about up, counter-clockwise seen from above */
     double ev;                    /* radiance x 2^ev, [-64, 64] */
     double position[3];           /* where it is captured */
     double near_plane, far_plane; /* of what is captured, 0 < near < far */
@@ -214,6 +220,10 @@ typedef struct LodestarMaterial {
     double diffuse[3]; /* k_L */
     double f0[3];
     double exponent; /* Blinn-Phong, at least 0; above 1e7, and infinite, a mirror */
+    /* What is no metal, of metallic and roughness: 0, an F0 of 0.04; else of glTF's ior (at least
+     * 1, or 0: an F0 of 1), specular in [0, 1] and specular colour at least 0. */
+    uint32_t has_dielectric, reserved;
+    double ior, specular, specular_color[3];
 } LodestarMaterial;
 enum { LODESTAR_MATERIAL_DIFFUSE = 1, LODESTAR_MATERIAL_F0 = 2, LODESTAR_MATERIAL_EXPONENT = 4 };
 
