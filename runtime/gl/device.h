@@ -4,6 +4,7 @@
 // this room is made for a Device and counts through it, so that "nothing was done" can be proven.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -54,6 +55,10 @@ public:
     ~Device();
 
     [[nodiscard]] const Capabilities& capabilities() const { return capabilities_; }
+    /// Uses no more texels of a buffer texture than that: as on a driver that has no more.
+    void limitBufferTexels(int most) {
+        capabilities_.maxBufferTexels = std::min(capabilities_.maxBufferTexels, most);
+    }
     [[nodiscard]] WorkCounters& counters() { return counters_; }
     /// The texts of GL errors and undefined behaviour reported so far.
     [[nodiscard]] const std::vector<std::string>& messages() const { return messages_; }

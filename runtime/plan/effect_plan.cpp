@@ -189,10 +189,14 @@ void sortByShared(const PlanInput& input, std::vector<std::size_t>& order) {
     });
 }
 
-std::vector<Batch> batchesOf(const PlanInput& input, const std::vector<std::size_t>& order) {
+/// @param before instances that stand before the order's first
+std::vector<Batch> batchesOf(const PlanInput& input, const std::vector<std::size_t>& order,
+                             std::size_t before) {
     std::vector<Batch> batches;
     for (std::size_t i = 0; i < order.size(); ++i) {
-        if (i > 0 && sharing(input.draws[order[i]]) == sharing(input.draws[order[i - 1]])) {
+        const bool newPage = (before + i) % input.instancesPerPage == 0;
+        if (i > 0 && !newPage &&
+            sharing(input.draws[order[i]]) == sharing(input.draws[order[i - 1]])) {
             ++batches.back().count;
         } else {
             batches.push_back({i, 1, input.draws[order[i]].mirrored});
@@ -210,7 +214,10 @@ void planRsrmLights(const PlanInput& input, const Receivers& receivers, EffectPl
         }
     }
     sortByShared(input, casters);
-    const std::vector<Batch> casterBatches = batchesOf(input, casters);
+    const auto visible = std::count_if(input.draws.begin(), input.draws.end(),
+                                       [](const DrawView& draw) { return draw.visible; });
+    const std::vector<Batch> casterBatches =
+        batchesOf(input, casters, static_cast<std::size_t>(visible));
     for (std::size_t i = 0; i < input.rsrmLights.size(); ++i) {
         const RsrmLightView& light = input.rsrmLights[i];
         LitLight lit{i, false, -1, false};
@@ -331,7 +338,7 @@ void planDraws(const PlanInput& input, EffectPlan& result) {
         return input.draws[a].distance > input.draws[b].distance;
     });
     result.drawOrder.insert(result.drawOrder.end(), blended.begin(), blended.end());
-    result.batches = batchesOf(input, result.drawOrder);
+    result.batches = batchesOf(input, result.drawOrder, 0);
     const Features lights = lightFeatures(input, result);
     for (const std::size_t index : result.drawOrder) {
         result.drawFeatures.push_back(featuresOf(input, input.draws[index], lights));

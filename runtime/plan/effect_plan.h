@@ -110,6 +110,8 @@ struct PlanInput {
     bool rsrmPublished = false;           ///< the layout of their maps
     double rsrmGreatestExponent = 2048.0; ///< Phong exponent of their maps' last row
     std::uint64_t shadowTexels = 0;       ///< of one shadow map
+    /// Instances stand in pages, those of the draws, then the casters'; no call reads two of them.
+    std::size_t instancesPerPage = std::numeric_limits<std::size_t>::max();
     std::vector<CaptureView> captures;
     int faceBudget = 0; ///< faces captured in a frame, at most
     lighting::Estimator specular = lighting::kDefaultSpecular;

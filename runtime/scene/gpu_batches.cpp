@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene/gpu_batches.h"
 
+#include <algorithm>
 #include <cstring>
-#include <span>
-#include <string>
 
 #include <epoxy/gl.h>
 
@@ -15,55 +14,64 @@ namespace {
 
 constexpr std::size_t kTexelsPerInstance = sizeof(Instance) / sizeof(glm::vec4);
 
-std::span<const std::byte> bytesOf(const Instance* first, std::size_t count) {
-    return std::as_bytes(std::span(first, count));
-}
-
 } // namespace
 
-core::Result<void> GpuInstances::upload(gl::Device& device, std::vector<Instance> instances) {
-    const auto most = static_cast<std::size_t>(device.capabilities().maxBufferTexels);
-    if (instances.size() * kTexelsPerInstance > most) {
-        return core::Error{core::ErrorCode::NoOpenGl,
-                           std::to_string(instances.size()) +
-                               " draws are visible, the driver's buffer textures hold " +
-                               std::to_string(most / kTexelsPerInstance),
-                           {},
-                           {}};
-    }
-    const std::size_t both = std::min(instances.size(), uploaded_.size());
-    std::size_t first = 0;
-    while (first < both && instances[first] == uploaded_[first]) {
-        ++first;
-    }
-    std::size_t end = instances.size();
-    if (instances.size() > uploaded_.size()) {
-        buffer_ =
-            gl::Buffer(device, gl::BufferKind::Texel, bytesOf(instances.data(), instances.size()));
-        unsigned id = 0;
-        glGenTextures(1, &id);
-        texture_ = gl::Texture::adopt(device, id, GL_TEXTURE_BUFFER);
-        texture_.bind(kInstanceUnit);
-        glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer_.id());
-    } else {
-        while (end > first && instances[end - 1] == uploaded_[end - 1]) {
-            --end;
-        }
-        if (end > first) {
-            buffer_.updatePart(first * sizeof(Instance), bytesOf(&instances[first], end - first));
-        }
-        // What lies behind is still there: the buffer holds as many as ever.
-        instances.insert(instances.end(), uploaded_.begin() + static_cast<std::ptrdiff_t>(both),
-                         uploaded_.end());
-    }
-    uploaded_ = std::move(instances);
-    return {};
+std::size_t GpuInstances::pageSize(const gl::Device& device) {
+    return std::max(static_cast<std::size_t>(device.capabilities().maxBufferTexels) /
+                        kTexelsPerInstance,
+                    std::size_t{1});
 }
 
-void GpuInstances::bind() const {
-    if (texture_) {
-        texture_.bind(kInstanceUnit);
+void GpuInstances::upload(gl::Device& device, std::span<const Instance> instances, Page& page) {
+    std::vector<Instance>& uploaded = page.uploaded;
+    const std::size_t both = std::min(instances.size(), uploaded.size());
+    std::size_t first = 0;
+    while (first < both && instances[first] == uploaded[first]) {
+        ++first;
     }
+    if (instances.size() > uploaded.size()) {
+        page.buffer = gl::Buffer(device, gl::BufferKind::Texel, std::as_bytes(instances));
+        unsigned id = 0;
+        glGenTextures(1, &id);
+        page.texture = gl::Texture::adopt(device, id, GL_TEXTURE_BUFFER);
+        page.texture.bind(kInstanceUnit);
+        glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, page.buffer.id());
+        uploaded.assign(instances.begin(), instances.end());
+        return;
+    }
+    std::size_t end = instances.size();
+    while (end > first && instances[end - 1] == uploaded[end - 1]) {
+        --end;
+    }
+    if (end > first) {
+        const auto changed = instances.subspan(first, end - first);
+        page.buffer.updatePart(first * sizeof(Instance), std::as_bytes(changed));
+        std::copy(changed.begin(), changed.end(),
+                  uploaded.begin() + static_cast<std::ptrdiff_t>(first));
+    }
+    // What lies behind is still there: the buffer holds as many as ever.
+}
+
+void GpuInstances::upload(gl::Device& device, const std::vector<Instance>& instances) {
+    pageSize_ = pageSize(device);
+    bound_ = kNone;
+    const std::span<const Instance> all(instances);
+    for (std::size_t first = 0; first < all.size(); first += pageSize_) {
+        const std::size_t page = first / pageSize_;
+        if (page == pages_.size()) {
+            pages_.emplace_back();
+        }
+        upload(device, all.subspan(first, std::min(pageSize_, all.size() - first)), pages_[page]);
+    }
+}
+
+std::size_t GpuInstances::bind(std::size_t instance) {
+    const std::size_t page = instance / pageSize_;
+    if (bound_ != page) {
+        bound_ = page;
+        pages_[page].texture.bind(kInstanceUnit);
+    }
+    return instance % pageSize_;
 }
 
 void GpuMaterials::prepare(gl::Device& device, const Scene& scene,

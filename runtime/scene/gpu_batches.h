@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/vec4.hpp>
@@ -23,17 +24,31 @@ struct Instance {
     bool operator==(const Instance&) const = default;
 };
 
+/// Instances in pages of as many as a buffer texture holds: at least 16,384.
 class GpuInstances {
 public:
-    /// Uploads what differs from the last call, from the first to the last of those instances.
-    /// @errors NoOpenGl if they are more than a buffer texture holds
-    [[nodiscard]] core::Result<void> upload(gl::Device& device, std::vector<Instance> instances);
-    void bind() const;
+    /// How many a page holds; plan::PlanInput::instancesPerPage of what is drawn from it.
+    [[nodiscard]] static std::size_t pageSize(const gl::Device& device);
+    /// Uploads what differs from the last call: in each page, from the first to the last of those
+    /// instances.
+    void upload(gl::Device& device, const std::vector<Instance>& instances);
+    /// Binds the page of an instance. @return its place in the page
+    [[nodiscard]] std::size_t bind(std::size_t instance);
+    /// Something else may have been bound since.
+    void forgetBound() { bound_ = kNone; }
 
 private:
-    std::vector<Instance> uploaded_;
-    gl::Buffer buffer_;
-    gl::Texture texture_;
+    struct Page {
+        std::vector<Instance> uploaded;
+        gl::Buffer buffer;
+        gl::Texture texture;
+    };
+    static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+    static void upload(gl::Device& device, std::span<const Instance> instances, Page& page);
+
+    std::size_t pageSize_ = 1;
+    std::size_t bound_ = kNone;
+    std::vector<Page> pages_;
 };
 
 class GpuMaterials {

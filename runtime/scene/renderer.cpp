@@ -87,7 +87,7 @@ struct Renderer::State {
     core::Result<void> drawShadows(const plan::EffectPlan& plan, const RenderSettings& settings,
                                    const plan::PlanInput& input);
     void drawBackdrop(const plan::EffectPlan& plan);
-    core::Result<void> placeInstances(const plan::EffectPlan& plan);
+    void placeInstances(const plan::EffectPlan& plan);
     void use(const MeshProgram& program, const plan::Batch& batch, std::size_t before);
     void drawBatch(const plan::Batch& batch, const plan::EffectPlan& plan,
                    const RenderSettings& settings, PassState& state);
@@ -107,7 +107,7 @@ void Renderer::State::drawBackdrop(const plan::EffectPlan& plan) {
 }
 
 /// Where the instances of all batches stand: those of the picture, then the casters.
-core::Result<void> Renderer::State::placeInstances(const plan::EffectPlan& plan) {
+void Renderer::State::placeInstances(const plan::EffectPlan& plan) {
     std::vector<Instance> placed;
     placed.reserve(plan.drawOrder.size() + plan.casters.size());
     for (const std::vector<std::size_t>* order : {&plan.drawOrder, &plan.casters}) {
@@ -122,14 +122,14 @@ core::Result<void> Renderer::State::placeInstances(const plan::EffectPlan& plan)
                 {{rows[0], rows[1], rows[2]}, {deformation.firstTexel(skin), 0.0f, 0.0f, 0.0f}});
         }
     }
-    return instances.upload(device, std::move(placed));
+    instances.upload(device, placed);
 }
 
 /// @param before instances that stand before the order's first
 void Renderer::State::use(const MeshProgram& program, const plan::Batch& batch,
                           std::size_t before) {
     program.program.use();
-    glUniform1i(program.firstInstance, static_cast<int>(before + batch.first));
+    glUniform1i(program.firstInstance, static_cast<int>(instances.bind(before + batch.first)));
 }
 
 /// @param index of the batch's first draw
@@ -230,7 +230,7 @@ core::Result<void> Renderer::State::drawShadows(const plan::EffectPlan& plan,
         frameBuffer.update(bytesOf(block));
         frameBuffer.bindBlock(kFrameBinding);
         deformation.bind();
-        instances.bind();
+        instances.forgetBound();
         drawCasters(plan, settings, input);
         glDisable(GL_POLYGON_OFFSET_FILL);
     }
@@ -258,7 +258,7 @@ void Renderer::State::drawTile(const plan::EffectPlan& plan, const RenderSetting
     shadows.bind();
     lightBuffer.bindBlock(kRsrmBinding);
     deformation.bind();
-    instances.bind();
+    instances.forgetBound();
     bool backdropDrawn = !plan.backdrop;
     PassState state;
     for (const plan::Batch& batch : plan.batches) {
@@ -349,6 +349,7 @@ plan::PlanInput planInput(const Scene& scene, const View& view, const RenderSett
 plan::PlanInput Renderer::State::describe(const View& view, const RenderSettings& settings) {
     plan::PlanInput input = planInput(scene, view, settings, beside(environment.view(), lights));
     input.alreadyPrepared = environment.prepared();
+    input.instancesPerPage = GpuInstances::pageSize(device);
     deformation.describe(scene, items, input);
     describeLights(scene, items, settings.hour, lights, shadows, input);
     return input;
@@ -410,9 +411,7 @@ core::Result<Frame> Renderer::State::drawFrame(const View& view, const RenderSet
     auto prepared = timed("prepare", [&] {
         deformation.prepare(device, scene, items, gpu, frame.plan);
         materials.prepare(device, scene, settings.materialOverride);
-        if (auto placed = placeInstances(frame.plan); !placed) {
-            return placed;
-        }
+        placeInstances(frame.plan);
         auto made = environment.prepare(device, frame.plan.prepare);
         return made ? lights.prepare(device, frame.plan) : made;
     });

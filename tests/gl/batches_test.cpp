@@ -81,6 +81,56 @@ TEST_F(Batches, ThePictureIsTheSame) {
     EXPECT_EQ(planned, batched->counters.draws);
 }
 
+/// The scene under a sun, with a shadow of each node.
+std::unique_ptr<scene::Renderer> underTheSun(std::unique_ptr<scene::Renderer> renderer) {
+    lighting::DayLight sun;
+    sun.kind = lighting::LightKind::Sun;
+    sun.axis = glm::normalize(glm::dvec3(0.4, 0.6, 1.0));
+    lighting::DayKey key;
+    key.hour = 12.0;
+    key.tint = glm::dvec3(1.0);
+    key.gradient.stops = {{0.0, glm::dvec3(1.0), 10.0}, {3.0, glm::dvec3(1.0), 10.0}};
+    sun.keys = {key};
+    core::Tally warnings;
+    renderer->setLights({*lighting::repaired(sun, warnings)});
+    return renderer;
+}
+
+// A driver whose buffer textures hold five instances: as many calls as pages and batches ask for,
+// the same picture, and what moves is uploaded in its page.
+TEST_F(Batches, InstancesBeyondAPageAreInTheNext) {
+    scene::Scene scene = scene::buildScene(grid(6, true));
+    const scene::View view = testing::frontView(scene, 4.0f);
+    const auto whole = underTheSun(rendererOf(scene))->render(view, small());
+    device().limitBufferTexels(4 * 5 + 3);
+    const auto renderer = underTheSun(rendererOf(scene));
+    const auto paged = renderer->render(view, small());
+    ASSERT_TRUE(whole.ok() && paged.ok());
+    EXPECT_EQ(paged->radiance.pixels(), whole->radiance.pixels());
+    // 36 draws in 4 batches, their casters behind them in 4 more, cut at 5, 10, .. 70.
+    EXPECT_EQ(whole->counters.draws, 1u + 4u + 4u);
+    EXPECT_GT(paged->counters.draws, 1u + 72u / 5u);
+    std::uint64_t planned = 0;
+    for (const plan::Effect& effect : paged->plan.effects) {
+        planned += effect.cost.draws;
+    }
+    EXPECT_EQ(planned, paged->counters.draws);
+    for (const std::vector<plan::Batch>* batches :
+         {&paged->plan.batches, &paged->plan.casterBatches}) {
+        const std::size_t before = batches == &paged->plan.batches ? 0 : 36;
+        for (const plan::Batch& batch : *batches) {
+            EXPECT_EQ((before + batch.first) / 5, (before + batch.first + batch.count - 1) / 5);
+        }
+    }
+    const auto idle = renderer->render(view, small());
+    scene.nodes[7].worldFromNode[3].x += 0.01f;
+    scene.nodes[30].worldFromNode[3].x += 0.01f;
+    const auto moved = renderer->render(view, small());
+    ASSERT_TRUE(idle.ok() && moved.ok());
+    // Two pages of draws, two of casters; and the shadow is drawn again, by a block of its own.
+    EXPECT_EQ(moved->counters.uploads, idle->counters.uploads + 4u + 1u);
+}
+
 TEST_F(Batches, TenThousandDrawsAreFewCalls) {
     scene::Scene scene = scene::buildScene(grid(100, true));
     const scene::View view = testing::frontView(scene, 4.0f);
