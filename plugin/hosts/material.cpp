@@ -61,6 +61,35 @@ bool packMaterial(const LitContext& lit, const io::GltfFile& file, int index, fl
     return lit.api().material_pack(&material, packed) == LODESTAR_OK;
 }
 
+core::Tally leftOut(const io::GltfFile& file) {
+    core::Tally tally;
+    for (const io::GltfMaterial& material : file.materials) {
+        const io::GltfTextureRef exponents =
+            material.blinnPhong ? material.blinnPhong->exponentTexture : io::GltfTextureRef{};
+        for (const io::GltfTextureRef& texture :
+             {material.baseColorTexture, material.metallicRoughnessTexture, material.normalTexture,
+              material.occlusionTexture, material.emissiveTexture, material.specularTexture,
+              material.specularColorTexture, exponents}) {
+            tally.add("texture, left out", texture.texture != io::kNone ? 1 : 0);
+        }
+        tally.add("material that is masked or blended, drawn opaque",
+                  material.alphaMode != io::AlphaMode::Opaque ? 1 : 0);
+        tally.add("unlit material, drawn lit", material.unlit ? 1 : 0);
+        tally.add("emission, left out", material.emissive != glm::vec3(0.0f) ? 1 : 0);
+    }
+    for (const io::GltfMesh& mesh : file.meshes) {
+        for (const io::GltfPrimitive& primitive : mesh.primitives) {
+            tally.add("points or lines, left out",
+                      primitive.topology != io::Topology::Triangles ? 1 : 0);
+            tally.add("vertex colours, left out", primitive.colors.empty() ? 0 : 1);
+            tally.add("morph targets, left out", primitive.targets.empty() ? 0 : 1);
+        }
+    }
+    tally.add("skin, left out", file.skins.size());
+    tally.add("punctual light, left out", file.lights.size());
+    return tally;
+}
+
 bool isDoubleSided(const io::GltfFile& file, int index) {
     return materialAt(file, index).doubleSided;
 }

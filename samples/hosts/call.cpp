@@ -105,6 +105,13 @@ int runHost(const char* name, int argc, char** argv, HostDraw draw) {
     return 0;
 }
 
+void warn(const char* name, const HostCall& call, const core::Tally& leftOut) {
+    for (const auto& [what, count] : leftOut.counts()) {
+        std::fprintf(stderr, "%s: warning: %s: %s (%llu times)\n", name, call.scene.c_str(),
+                     what.c_str(), static_cast<unsigned long long>(count));
+    }
+}
+
 core::Image pictureOf(const HostCall& call, const std::uint8_t* bytes) {
     core::Image picture(call.width, call.height, 4);
     for (int y = call.height - 1; y >= 0; --y) {

@@ -8,6 +8,7 @@
 
 #include "core/image.h"
 #include "core/result.h"
+#include "core/tally.h"
 #include "io/gltf.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
@@ -33,6 +34,9 @@ using HostDraw = core::Result<core::Image> (*)(const HostCall& call, const HostS
 /// Reads a host's words, loads its scene, lets it draw, writes the picture; says in one line what
 /// fails. @return the exit status
 int runHost(const char* name, int argc, char** argv, HostDraw draw);
+
+/// Says on stderr what a host does not show of a scene, a line each.
+void warn(const char* name, const HostCall& call, const core::Tally& leftOut);
 
 /// A picture of 8 bits a channel, RGBA, row 0 at the bottom.
 [[nodiscard]] core::Image pictureOf(const HostCall& call, const std::uint8_t* bytes);

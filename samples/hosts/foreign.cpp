@@ -168,6 +168,7 @@ core::Result<core::Image> draw(const HostCall& call, const HostScene& loaded) {
     if (!lit) {
         return lit.error();
     }
+    warn("lodestar-host-foreign", call, hosts::leftOut(loaded.file));
     auto context = platform::HeadlessContext::create();
     if (!context) {
         return context.error();

@@ -5,6 +5,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "call.h"
+#include "hosts/material.h"
 #include "hosts/osg/headless.h"
 #include "hosts/osg/lights.h"
 #include "hosts/osg/scene.h"
@@ -21,6 +22,7 @@ core::Result<core::Image> draw(const HostCall& call, const HostScene& loaded) {
     if (!lit) {
         return lit.error();
     }
+    warn("lodestar-host-osg", call, hosts::leftOut(loaded.file));
     if (!osghost::makeContextCurrent()) {
         return core::Error{
             core::ErrorCode::NoOpenGl, "no compatibility context without a surface", {}, {}};

@@ -91,6 +91,25 @@ TEST(Host, ADocumentsMaterialsStandOverTheFiles) {
     EXPECT_FALSE(passes(byHost(folder, scene, day(plain), "9"), own, "without them"));
 }
 
+TEST(Host, WhatIsNotShownIsSaid) {
+    const TemporaryFolder folder;
+    GltfBuilder file;
+    const int painted =
+        file.add("materials", {{"emissiveFactor", {0.5, 0.5, 0.5}}, {"alphaMode", "BLEND"}});
+    file.show({file.primitive(sphere(4, 8), painted)}, {});
+    const std::string said = (folder / "said").string();
+    const std::string command = program(LODESTAR_HOST) + " " + file.write(folder).string() +
+                                " --lighting " + day(folder) + " -o " +
+                                (folder / "x.png").string() + " --size 8x8 2>" + said;
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    std::ifstream answer(said);
+    const std::string lines{std::istreambuf_iterator<char>(answer), {}};
+    for (const char* what : {"emission, left out (1 times)", "drawn opaque (1 times)"}) {
+        EXPECT_NE(lines.find(what), std::string::npos) << lines;
+    }
+    EXPECT_EQ(lines.find("texture"), std::string::npos) << lines;
+}
+
 TEST(Host, ADocumentThatCannotLightIsSaid) {
     const TemporaryFolder folder;
     const std::string scene = spheres(folder, 2.2);
