@@ -21,6 +21,7 @@
 #include "scene/presenter.h"
 #include "scene/programs.h"
 #include "scene/shadow_maps.h"
+#include "scene/uniform_block.h"
 
 namespace lodestar::scene {
 namespace {
@@ -29,11 +30,6 @@ using Clock = std::chrono::steady_clock;
 
 /// Largest side of a tile, in samples: 2048^2 of colour and depth are 80 MiB.
 constexpr int kTileSide = 2048;
-
-template <class Block>
-std::span<const std::byte> bytesOf(const Block& block) {
-    return std::as_bytes(std::span(&block, 1));
-}
 
 double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -54,7 +50,7 @@ struct Renderer::State {
     State(gl::Device& glDevice, const Scene& drawn, GpuScene uploaded, GpuDeformation deformed)
         : device(glDevice), scene(drawn), gpu(std::move(uploaded)), items(drawItems(drawn)),
           deformation(std::move(deformed)), fullScreen(glDevice), timer(glDevice),
-          programs(glDevice) {}
+          frameBlock(glDevice), lightBlock(glDevice), programs(glDevice) {}
 
     gl::Device& device;
     const Scene& scene;
@@ -63,7 +59,8 @@ struct Renderer::State {
     GpuDeformation deformation;
     gl::VertexArray fullScreen;
     gl::Timer timer;
-    gl::Buffer frameBuffer, lightBuffer;
+    UniformBlock<blocks::LodestarFrame> frameBlock;
+    UniformBlock<blocks::LodestarRsrmLights> lightBlock;
     GpuInstances instances;
     GpuMaterials materials;
     gl::Framebuffer target;
@@ -227,8 +224,8 @@ core::Result<void> Renderer::State::drawShadows(const plan::EffectPlan& plan,
         glPolygonOffset(1.5f, 2.0f);
         blocks::LodestarFrame block{};
         block.clipFromWorld = shadows.view(lit.shadow).clipFromWorld;
-        frameBuffer.update(bytesOf(block));
-        frameBuffer.bindBlock(kFrameBinding);
+        frameBlock.set(block);
+        frameBlock.bind(kFrameBinding);
         deformation.bind();
         instances.forgetBound();
         drawCasters(plan, settings, input);
@@ -237,7 +234,7 @@ core::Result<void> Renderer::State::drawShadows(const plan::EffectPlan& plan,
     blocks::LodestarRsrmLights block{};
     lights.describe(plan, block);
     shadows.describe(plan, block);
-    lightBuffer.update(bytesOf(block));
+    lightBlock.set(block);
     return {};
 }
 
@@ -251,12 +248,12 @@ void Renderer::State::drawTile(const plan::EffectPlan& plan, const RenderSetting
     glEnable(GL_PROGRAM_POINT_SIZE);
     settings.seamless ? glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS)
                       : glDisable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
-    frameBuffer.update(bytesOf(block));
-    frameBuffer.bindBlock(kFrameBinding);
+    frameBlock.set(block);
+    frameBlock.bind(kFrameBinding);
     environment.bind(settings);
     lights.bind();
     shadows.bind();
-    lightBuffer.bindBlock(kRsrmBinding);
+    lightBlock.bind(kRsrmBinding);
     deformation.bind();
     instances.forgetBound();
     bool backdropDrawn = !plan.backdrop;
@@ -289,10 +286,6 @@ core::Result<std::unique_ptr<Renderer>> Renderer::make(gl::Device& device, const
     }
     auto state =
         std::make_unique<State>(device, scene, std::move(*uploaded), std::move(*deformation));
-    state->frameBuffer =
-        gl::Buffer(device, gl::BufferKind::Uniform, bytesOf(blocks::LodestarFrame{}));
-    state->lightBuffer =
-        gl::Buffer(device, gl::BufferKind::Uniform, bytesOf(blocks::LodestarRsrmLights{}));
     return std::unique_ptr<Renderer>(new Renderer(std::move(state)));
 }
 
