@@ -60,13 +60,13 @@ nlohmann::json stats(const std::vector<scene::Frame>& frames, const gl::WorkCoun
     for (const scene::Frame& frame : frames) {
         perFrame.push_back({{"counters", toJson(frame.counters)},
                             {"times_ms", frame.timesMs},
-                            {"effects", toJson(frame.plan)["effects"]}});
+                            {"effects", toJson(*frame.plan)["effects"]}});
     }
     core::Tally warnings = loaded.light.environment.warnings;
     warnings.merge(loaded.scene.warnings);
     warnings.merge(loaded.lightWarnings);
     warnings.add("pixel not finite, set to 0", frames.back().repairedPixels);
-    return {{"plan", toJson(frames.back().plan)},
+    return {{"plan", toJson(*frames.back().plan)},
             {"counters", toJson(total)},
             {"times_ms", frames.back().timesMs},
             {"frames", perFrame},

@@ -360,7 +360,7 @@ nlohmann::json Viewer::stats() const {
              {{"specular", lighting::estimatorName(settings_.specular)},
               {"diffuse", lighting::estimatorName(settings_.diffuse)},
               {"lights", lights_.empty() ? "" : lightsEstimator_}}},
-            {"plan", toJson(plan_)},
+            {"plan", toJson(plan_ ? *plan_ : plan::EffectPlan{})},
             {"warnings", warnings.counts()},
             {"counters", toJson(device_->counters())},
             {"frames_drawn", framesDrawn_},

@@ -158,7 +158,7 @@ private:
     bool measured_ = false; ///< the first reading after a change has been dropped
     std::vector<double> readings_;
     int readingSamples_ = 0;
-    plan::EffectPlan plan_; ///< of the last frame
+    std::shared_ptr<const plan::EffectPlan> plan_; ///< of the last frame
     std::vector<DrawnFrame> drawn_;
     std::uint64_t framesDrawn_ = 0;
     std::uint64_t screenshots_ = 0;

@@ -207,8 +207,10 @@ std::vector<Batch> batchesOf(const PlanInput& input, const std::vector<std::size
 
 /// Skies and suns: blended when their hour asks for it; suns that are up are hidden by casters.
 void planRsrmLights(const PlanInput& input, const Receivers& receivers, EffectPlan& result) {
+    const bool shadows = std::any_of(input.rsrmLights.begin(), input.rsrmLights.end(),
+                                     [](const RsrmLightView& light) { return light.shadow >= 0; });
     std::vector<std::size_t> casters;
-    for (std::size_t i = 0; i < input.draws.size(); ++i) {
+    for (std::size_t i = 0; shadows && i < input.draws.size(); ++i) {
         if (input.draws[i].casts) {
             casters.push_back(i);
         }

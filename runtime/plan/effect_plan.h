@@ -73,6 +73,7 @@ struct DrawView {
     int indexCount = 0;
     std::uint64_t morphBytes = 0; ///< of its vertices with morph targets added; 0: it has none
     bool weightsChanged = true;   ///< of its morph targets, since they were last added
+    bool operator==(const DrawView&) const = default;
 };
 
 struct EnvironmentView {
@@ -81,6 +82,7 @@ struct EnvironmentView {
     bool changed = true;      ///< since the previous plan
     bool present = true;      ///< false: there is none, or a sky light stands in its place
     std::string replacedBy{}; ///< the sky light; empty: there is none
+    bool operator==(const EnvironmentView&) const = default;
 };
 
 /// A sky or a sun as the planner sees it at the frame's hour.
@@ -92,6 +94,7 @@ struct RsrmLightView {
     std::uint64_t uploadBytes = 0; ///< of the same
     int shadow = -1;               ///< its layer of the shadow maps; -1: it casts none
     bool shadowChanged = true;     ///< it or a caster moved since that was drawn
+    bool operator==(const RsrmLightView&) const = default;
 };
 
 /// A captured environment as the planner sees it.
@@ -99,6 +102,7 @@ struct CaptureView {
     std::string subject;
     std::array<bool, 6> missing{}; ///< faces that have been asked for and not been drawn
     bool complete = true;          ///< it shows what an earlier capture drew
+    bool operator==(const CaptureView&) const = default;
 };
 
 /// Everything the plan depends on.
@@ -121,6 +125,7 @@ struct PlanInput {
     bool backdrop = true;
     std::uint64_t pixels = 0;                ///< shaded in a frame
     lighting::PreparedParts alreadyPrepared; ///< from earlier frames, of the same environment
+    bool operator==(const PlanInput&) const = default;
 };
 
 enum class Decision { Run, Skip };
@@ -131,6 +136,7 @@ struct Cost {
     std::uint64_t passes = 0;
     std::uint64_t texelsWritten = 0;
     std::uint64_t uploadBytes = 0;
+    bool operator==(const Cost&) const = default;
 };
 
 struct Effect {
@@ -139,6 +145,7 @@ struct Effect {
     Decision decision = Decision::Run;
     std::string reason; ///< a sentence for people
     Cost cost;
+    bool operator==(const Effect&) const = default;
 };
 
 /// Neighbours in an order of draws that are one call to the driver.
@@ -146,6 +153,7 @@ struct Batch {
     std::size_t first = 0;
     std::size_t count = 0;
     bool mirrored = false; ///< DrawView::mirrored of them all
+    bool operator==(const Batch&) const = default;
 };
 
 /// A sky or a sun that a frame is lit by.
@@ -154,12 +162,14 @@ struct LitLight {
     bool blend = false;      ///< its map is made and uploaded in this frame
     int shadow = -1;         ///< layer of its shadow map; -1: nothing is hidden from it
     bool drawShadow = false; ///< that is drawn in this frame
+    bool operator==(const LitLight&) const = default;
 };
 
 /// A face to be captured.
 struct CaptureFace {
     std::size_t capture = 0; ///< into PlanInput::captures
     int face = 0;            ///< OpenGL's order
+    bool operator==(const CaptureFace&) const = default;
 };
 
 struct EffectPlan {
@@ -183,6 +193,7 @@ struct EffectPlan {
     [[nodiscard]] std::size_t shadowedLights() const;
     /// Whether an effect of this name runs.
     [[nodiscard]] bool runs(const std::string& effect) const;
+    bool operator==(const EffectPlan&) const = default;
 };
 
 /// A plan in words, a line an effect.

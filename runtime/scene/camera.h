@@ -24,6 +24,7 @@ struct View {
     bool perspective = true;
 
     [[nodiscard]] glm::mat4 clipFromWorld() const { return clipFromCamera * cameraFromWorld; }
+    bool operator==(const View&) const = default;
 };
 
 /// What the user asked for; what is absent is chosen.

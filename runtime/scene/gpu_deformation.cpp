@@ -148,6 +148,12 @@ core::Result<GpuDeformation> GpuDeformation::make(gl::Device& device, const Scen
     return result;
 }
 
+bool GpuDeformation::deforms() const {
+    return firstTexels_.back() > 0 ||
+           std::any_of(morphs_.begin(), morphs_.end(),
+                       [](const auto& morph) { return morph.has_value(); });
+}
+
 void GpuDeformation::describe(const Scene& scene, const std::vector<DrawItem>& items,
                               plan::PlanInput& input) {
     joints_ = jointRows(scene, firstTexels_);

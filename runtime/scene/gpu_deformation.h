@@ -34,6 +34,8 @@ public:
     [[nodiscard]] static core::Result<GpuDeformation> make(gl::Device& device, const Scene& scene,
                                                            const std::vector<DrawItem>& items);
 
+    /// Whether anything can move vertices but where nodes stand.
+    [[nodiscard]] bool deforms() const;
     /// Tells the planner what has not changed since the last upload, and how skins wind.
     void describe(const Scene& scene, const std::vector<DrawItem>& items, plan::PlanInput& input);
     /// Uploads what the plan's draws need and has changed.

@@ -13,6 +13,7 @@
 #include "gl/timer.h"
 #include "scene/draw_list.h"
 #include "scene/frame_parts.h"
+#include "scene/frame_planner.h"
 #include "scene/gpu_batches.h"
 #include "scene/gpu_deformation.h"
 #include "scene/gpu_environment.h"
@@ -65,6 +66,7 @@ struct Renderer::State {
     GpuMaterials materials;
     gl::Framebuffer target;
     Programs programs;
+    FramePlanner planner;
     std::optional<Presenter> presenter;
 
     GpuEnvironment environment;
@@ -80,7 +82,8 @@ struct Renderer::State {
                                    const TileSink& sink);
     void drawTile(const plan::EffectPlan& plan, const RenderSettings& settings,
                   const blocks::LodestarFrame& block);
-    [[nodiscard]] plan::PlanInput describe(const View& view, const RenderSettings& settings);
+    [[nodiscard]] std::shared_ptr<const plan::EffectPlan> planFrame(const View& view,
+                                                                    const RenderSettings& settings);
     core::Result<void> drawShadows(const plan::EffectPlan& plan, const RenderSettings& settings,
                                    const plan::PlanInput& input);
     void drawBackdrop(const plan::EffectPlan& plan);
@@ -339,13 +342,16 @@ plan::PlanInput planInput(const Scene& scene, const View& view, const RenderSett
     return input;
 }
 
-plan::PlanInput Renderer::State::describe(const View& view, const RenderSettings& settings) {
-    plan::PlanInput input = planInput(scene, view, settings, beside(environment.view(), lights));
+std::shared_ptr<const plan::EffectPlan> Renderer::State::planFrame(const View& view,
+                                                                   const RenderSettings& settings) {
+    planner.describeDraws(scene, view, settings, deformation.deforms());
+    plan::PlanInput& input = planner.input();
+    input.environment = beside(environment.view(), lights);
     input.alreadyPrepared = environment.prepared();
     input.instancesPerPage = GpuInstances::pageSize(device);
     deformation.describe(scene, items, input);
     describeLights(scene, items, settings.hour, lights, shadows, input);
-    return input;
+    return planner.plan();
 }
 
 core::Result<void> Renderer::State::drawPicture(const View& view, const RenderSettings& settings,
@@ -372,7 +378,7 @@ core::Result<void> Renderer::State::drawPicture(const View& view, const RenderSe
                 tileFromClip(tile, settings.width, settings.height) * view.clipFromWorld();
             block.worldFromClip = glm::mat4(glm::inverse(glm::dmat4(block.clipFromWorld)));
             timer.begin();
-            drawTile(frame.plan, settings, block);
+            drawTile(*frame.plan, settings, block);
             timer.end();
             frame.timesMs["draw"] += timer.milliseconds();
             sink(tile);
@@ -396,26 +402,24 @@ core::Result<Frame> Renderer::State::drawFrame(const View& view, const RenderSet
         frame.timesMs[step] = millisecondsSince(start);
         return result;
     };
-    plan::PlanInput input;
-    frame.plan = timed("plan", [&] {
-        input = describe(view, settings);
-        return plan::plan(input);
-    });
+    frame.plan = timed("plan", [&] { return planFrame(view, settings); });
+    const plan::EffectPlan& plan = *frame.plan;
+    const plan::PlanInput& input = planner.input();
     auto prepared = timed("prepare", [&] {
-        deformation.prepare(device, scene, items, gpu, frame.plan);
+        deformation.prepare(device, scene, items, gpu, plan);
         materials.prepare(device, scene, settings.materialOverride);
-        placeInstances(frame.plan);
-        auto made = environment.prepare(device, frame.plan.prepare);
-        return made ? lights.prepare(device, frame.plan) : made;
+        placeInstances(plan);
+        auto made = environment.prepare(device, plan.prepare);
+        return made ? lights.prepare(device, plan) : made;
     });
     if (!prepared) {
         return prepared.error();
     }
-    auto compiled = timed("compile", [&] { return programs.compile(input, frame.plan, settings); });
+    auto compiled = timed("compile", [&] { return programs.compile(input, plan, settings); });
     if (!compiled) {
         return compiled.error();
     }
-    auto shadowed = timed("shadows", [&] { return drawShadows(frame.plan, settings, input); });
+    auto shadowed = timed("shadows", [&] { return drawShadows(plan, settings, input); });
     if (!shadowed) {
         return shadowed.error();
     }

@@ -41,15 +41,16 @@ struct RenderSettings {
     double hour = 15.0;   ///< local solar time of the lights; finite, wrapped into [0, 24)
     bool seamless = true; ///< false filters each cube face on its own, for comparison only
     std::optional<MaterialOverride> materialOverride;
+    bool operator==(const RenderSettings&) const = default;
 };
 
 /// A frame and what it took.
 struct Frame {
     core::Image radiance; ///< 4 channels, linear, premultiplied by coverage; every value finite
-    plan::EffectPlan plan;
-    gl::WorkCounters counters;             ///< of this frame
-    std::map<std::string, double> timesMs; ///< by step
-    std::uint64_t repairedPixels = 0;      ///< pixels that were not finite and are now 0
+    std::shared_ptr<const plan::EffectPlan> plan; ///< the last frame's where nothing has changed
+    gl::WorkCounters counters;                    ///< of this frame
+    std::map<std::string, double> timesMs;        ///< by step
+    std::uint64_t repairedPixels = 0;             ///< pixels that were not finite and are now 0
 };
 
 /// What the planner is told of a scene seen through a view.

@@ -75,7 +75,7 @@ TEST_F(Batches, ThePictureIsTheSame) {
     EXPECT_EQ(batched->counters.draws, 5u);
     EXPECT_EQ(single->counters.draws, 37u);
     std::uint64_t planned = 0;
-    for (const plan::Effect& effect : batched->plan.effects) {
+    for (const plan::Effect& effect : batched->plan->effects) {
         planned += effect.cost.draws;
     }
     EXPECT_EQ(planned, batched->counters.draws);
@@ -111,13 +111,13 @@ TEST_F(Batches, InstancesBeyondAPageAreInTheNext) {
     EXPECT_EQ(whole->counters.draws, 1u + 4u + 4u);
     EXPECT_GT(paged->counters.draws, 1u + 72u / 5u);
     std::uint64_t planned = 0;
-    for (const plan::Effect& effect : paged->plan.effects) {
+    for (const plan::Effect& effect : paged->plan->effects) {
         planned += effect.cost.draws;
     }
     EXPECT_EQ(planned, paged->counters.draws);
     for (const std::vector<plan::Batch>* batches :
-         {&paged->plan.batches, &paged->plan.casterBatches}) {
-        const std::size_t before = batches == &paged->plan.batches ? 0 : 36;
+         {&paged->plan->batches, &paged->plan->casterBatches}) {
+        const std::size_t before = batches == &paged->plan->batches ? 0 : 36;
         for (const plan::Batch& batch : *batches) {
             EXPECT_EQ((before + batch.first) / 5, (before + batch.first + batch.count - 1) / 5);
         }
@@ -133,13 +133,63 @@ TEST_F(Batches, InstancesBeyondAPageAreInTheNext) {
     EXPECT_EQ(moved->counters.uploads, 4u + 2u);
 }
 
+// A frame in which nothing has changed has the plan of the one before; whatever changes, the plan
+// is what it would be if nothing were kept: a picture by another view between two frames makes all
+// draws be described anew.
+TEST_F(Batches, PlansAreKeptWhileNothingChanges) {
+    scene::Scene scene = scene::buildScene(grid(6, true));
+    const auto kept = underTheSun(rendererOf(scene));
+    const auto anew = underTheSun(rendererOf(scene));
+    scene::View view = testing::frontView(scene, 4.0f);
+    const scene::View elsewhere = testing::frontView(scene, 40.0f);
+    scene::RenderSettings settings = small();
+    std::shared_ptr<const plan::EffectPlan> last;
+    const auto frame = [&](const char* change) {
+        const auto a = kept->render(view, settings);
+        const auto b = anew->render(view, settings);
+        EXPECT_TRUE(a.ok() && b.ok() && anew->render(elsewhere, settings).ok()) << change;
+        EXPECT_EQ(*a->plan, *b->plan) << change;
+        const bool same = a->plan == last;
+        last = a->plan;
+        return same;
+    };
+    frame("first");
+    EXPECT_FALSE(frame("what was made in the first is kept in the second"));
+    EXPECT_TRUE(frame("idle"));
+    EXPECT_TRUE(frame("idle"));
+    scene.nodes[5].worldFromNode[3].x += 9.0f;
+    EXPECT_FALSE(frame("a node out of the view"));
+    EXPECT_FALSE(frame("its shadow is drawn"));
+    EXPECT_TRUE(frame("idle"));
+    view = testing::frontView(scene, 2.0f);
+    EXPECT_FALSE(frame("the view"));
+    EXPECT_TRUE(frame("idle"));
+    settings.materialOverride = scene::MaterialOverride{glm::vec3(1.0f), glm::vec3(0.0f), 0.0f};
+    EXPECT_FALSE(frame("a setting"));
+    EXPECT_TRUE(frame("idle"));
+    settings.hour = 13.0;
+    EXPECT_FALSE(frame("the hour, a setting too"));
+    for (scene::Renderer* renderer : {kept.get(), anew.get()}) {
+        renderer->setEnvironment("other",
+                                 lighting::cubeFromAnalytic(lighting::ConstantEnvironment{}, 8));
+    }
+    EXPECT_FALSE(frame("the environment"));
+    EXPECT_FALSE(frame("its parts are made"));
+    EXPECT_TRUE(frame("idle"));
+    for (scene::Renderer* renderer : {kept.get(), anew.get()}) {
+        renderer->setLights({});
+    }
+    EXPECT_FALSE(frame("the lights"));
+    EXPECT_TRUE(frame("idle"));
+}
+
 TEST_F(Batches, TenThousandDrawsAreFewCalls) {
     scene::Scene scene = scene::buildScene(grid(100, true));
     const scene::View view = testing::frontView(scene, 4.0f);
     auto renderer = rendererOf(scene);
     auto first = renderer->render(view, small());
     ASSERT_TRUE(first.ok());
-    EXPECT_EQ(first->plan.drawOrder.size(), 10000u);
+    EXPECT_EQ(first->plan->drawOrder.size(), 10000u);
     EXPECT_EQ(first->counters.draws, 5u);
     // Nothing moved: nothing is uploaded.
     auto idle = renderer->render(view, small());
@@ -170,8 +220,8 @@ TEST_F(Batches, CulledDrawsComeBack) {
     auto close = renderer->render(some, small());
     auto after = renderer->render(all, small());
     ASSERT_TRUE(before.ok() && close.ok() && after.ok());
-    EXPECT_LT(close->plan.drawOrder.size(), 100u);
-    EXPECT_GT(close->plan.drawOrder.size(), 4u);
+    EXPECT_LT(close->plan->drawOrder.size(), 100u);
+    EXPECT_GT(close->plan->drawOrder.size(), 4u);
     EXPECT_EQ(before->radiance.pixels(), after->radiance.pixels());
     EXPECT_EQ(close->radiance.pixels(),
               rendererOf(scene)->render(some, small())->radiance.pixels());

@@ -56,11 +56,11 @@ protected:
             auto drawn = moving->render(view, settings());
             auto reference = renderer(fixed)->render(view, settings());
             ASSERT_TRUE(drawn.ok() && reference.ok());
-            EXPECT_TRUE(drawn->plan.runs(effect));
-            EXPECT_FALSE(reference->plan.runs(effect));
+            EXPECT_TRUE(drawn->plan->runs(effect));
+            EXPECT_FALSE(reference->plan->runs(effect));
             expectHeld(scene, fixed);
             uploaded = drawn->counters.uploadBytes;
-            forecast = costOf(drawn->plan, effect).uploadBytes;
+            forecast = costOf(*drawn->plan, effect).uploadBytes;
             const core::Image picture = display(drawn->radiance);
             EXPECT_LE(testing::compare(picture, display(reference->radiance), 1.0 / 255.0).largest,
                       1.0 / 255.0)
@@ -74,7 +74,7 @@ protected:
         // The same pose again: nothing is uploaded but the uniform blocks.
         auto again = moving->render(view, settings());
         ASSERT_TRUE(again.ok());
-        EXPECT_FALSE(again->plan.runs(effect));
+        EXPECT_FALSE(again->plan->runs(effect));
         EXPECT_GT(forecast, 0u);
         EXPECT_EQ(uploaded - again->counters.uploadBytes, forecast);
         auto third = moving->render(view, settings());
@@ -312,11 +312,11 @@ TEST_F(Deformation, WhatIsOutOfViewIsNotUploaded) {
         auto moved = moving->render(view, settings());
         auto still = moving->render(view, settings());
         ASSERT_TRUE(moved.ok() && still.ok());
-        EXPECT_FALSE(moved->plan.runs(effect));
+        EXPECT_FALSE(moved->plan->runs(effect));
         EXPECT_EQ(moved->counters.uploadBytes, still->counters.uploadBytes) << effect;
         auto seen = moving->render(*scene::chooseView(scene, {}, 1.0f), settings());
         ASSERT_TRUE(seen.ok());
-        EXPECT_TRUE(seen->plan.runs(effect));
+        EXPECT_TRUE(seen->plan->runs(effect));
     }
 }
 

@@ -364,17 +364,18 @@ TEST_F(Lights, WhatHasNotChangedCostsNothing) {
         return std::move(*frame);
     };
     const scene::Frame noon = frameAt(13.0);
-    EXPECT_TRUE(noon.plan.runs("rsrm-blend"));
-    EXPECT_TRUE(noon.plan.runs("shadow-map"));
+    EXPECT_TRUE(noon.plan->runs("rsrm-blend"));
+    EXPECT_TRUE(noon.plan->runs("shadow-map"));
     const scene::Frame again = frameAt(13.0);
-    EXPECT_EQ(running(again.plan), (std::vector<std::string>{"backdrop lights"}));
+    EXPECT_EQ(running(*again.plan), (std::vector<std::string>{"backdrop lights"}));
     EXPECT_EQ(again.counters.passes, 1u);
     EXPECT_EQ(noon.counters.passes, 2u) << "the shadow map and the picture";
     // Night: the sky alone is blended, the sun has no map, no pass and no term.
     const scene::Frame night = frameAt(1.0);
     EXPECT_EQ(night.counters.passes, 1u);
-    EXPECT_EQ(running(night.plan), (std::vector<std::string>{"rsrm-blend sky", "backdrop lights"}));
-    EXPECT_EQ(night.plan.rsrmLights.size(), 1u);
+    EXPECT_EQ(running(*night.plan),
+              (std::vector<std::string>{"rsrm-blend sky", "backdrop lights"}));
+    EXPECT_EQ(night.plan->rsrmLights.size(), 1u);
     EXPECT_LT(night.counters.uploadBytes, noon.counters.uploadBytes);
     // Over midnight nothing jumps: a minute moves the blend by 1/1020 of the keys' difference.
     const scene::Frame before = frameAt(23.999);
@@ -419,7 +420,7 @@ TEST_F(Lights, ShadowsFallWhereRaysSay) {
     (*renderer)->setLights(inOrder({sun}));
     auto open = (*renderer)->render(testing::frontView(scene, 6.0f), settings);
     ASSERT_TRUE(open.ok());
-    EXPECT_FALSE(open->plan.runs("shadow-map"));
+    EXPECT_FALSE(open->plan->runs("shadow-map"));
     int dark = 0, bright = 0;
     // Texels of 2 x 2.9 / 2048: filtering and the offset along the normal reach 4 of them.
     constexpr double kMargin = 0.012;
