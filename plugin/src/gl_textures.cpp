@@ -52,6 +52,7 @@ void GlTextures::layOut(const std::vector<LodestarLight>& layers, Guard& kept) {
     }
     guard(kept);
     std::vector<Layer> wanted;
+    wanted.reserve(layers.size());
     for (const LodestarLight light : layers) {
         wanted.push_back({light, 0});
     }

@@ -67,7 +67,7 @@ void keepSharedMemoryApart() {
 
 namespace __gnu_cxx {
 /// Frees the room that the C++ runtime keeps for exceptions when memory has run out.
-void __freeres();
+void __freeres(); // NOLINT(readability-identifier-naming)
 } // namespace __gnu_cxx
 
 /// That room is taken when the library is loaded and by itself never given back.
