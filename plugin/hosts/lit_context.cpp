@@ -10,10 +10,18 @@
 namespace lodestar::hosts {
 
 core::Result<LitContext> LitContext::open(const std::string& file) {
-    const auto text = io::readFile(file);
-    if (!text) {
-        return text.error();
+    const auto bytes = io::readFile(file);
+    if (!bytes) {
+        return bytes.error();
     }
+    auto result = read({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, file);
+    if (!result) {
+        return core::inFile(result.error(), file);
+    }
+    return result;
+}
+
+core::Result<LitContext> LitContext::read(std::string_view text, const std::string& beside) {
     LodestarApi api{};
     api.struct_size = sizeof api;
     LodestarContext* context = nullptr;
@@ -22,24 +30,22 @@ core::Result<LitContext> LitContext::open(const std::string& file) {
         return core::Error{core::ErrorCode::Internal, "the library cannot be used", {}, {}};
     }
     LitContext result(api, Owned(context, api.context_destroy));
-    if (api.document_load(context, reinterpret_cast<const char*>(text->data()), text->size(),
-                          &result.document_) != LODESTAR_OK ||
+    if (api.document_load(context, text.data(), text.size(), &result.document_) != LODESTAR_OK ||
         api.document_apply(context, result.document_) != LODESTAR_OK) {
-        return core::inFile(result.refusal(), file);
+        return result.refusal();
     }
-    if (auto taken = result.takeEnvironment(file); !taken) {
+    if (auto taken = result.takeEnvironment(beside); !taken) {
         return taken.error();
     }
     std::size_t lights = 0;
     api.lights(context, nullptr, &lights);
     if (lights == 0 && result.environment_ == 0) {
-        return core::inFile(core::refused("has neither a light nor an environment", "/lights"),
-                            file);
+        return core::refused("has neither a light nor an environment", "/lights");
     }
     return result;
 }
 
-core::Result<void> LitContext::takeEnvironment(const std::string& file) {
+core::Result<void> LitContext::takeEnvironment(const std::string& beside) {
     std::size_t size = 0;
     LodestarEnvironmentDesc desc{};
     if (api_.document_environment(get(), document_, nullptr, &size, nullptr, nullptr) !=
@@ -49,10 +55,10 @@ core::Result<void> LitContext::takeEnvironment(const std::string& file) {
     std::string text(size, '\0');
     if (api_.document_environment(get(), document_, text.data(), &size, &desc.rotation, &desc.ev) !=
         LODESTAR_OK) {
-        return core::inFile(refusal(), file);
+        return refusal();
     }
     text.resize(size - 1);
-    const auto source = io::environmentSource(text, file);
+    const auto source = io::environmentSource(text, beside);
     if (!source) {
         return source.error();
     }
@@ -71,7 +77,7 @@ core::Result<void> LitContext::takeEnvironment(const std::string& file) {
     desc.channels = 4;
     if (api_.environment_create(get(), &desc, &environment_) != LODESTAR_OK ||
         api_.set_environment(get(), environment_) != LODESTAR_OK) {
-        return core::inFile(refusal(), file);
+        return refusal();
     }
     return {};
 }

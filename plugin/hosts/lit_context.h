@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include <lodestar/lodestar.h>
 
@@ -19,6 +20,10 @@ public:
     /// @errors InputRefused naming the file and the JSON pointer, also where it has no light;
     /// Internal if the library and its header do not fit
     [[nodiscard]] static core::Result<LitContext> open(const std::string& file);
+    /// The same by a document's text. @param beside a file's path, in whose folder or below its
+    /// environment's file is looked for; errors of the text itself name no file
+    [[nodiscard]] static core::Result<LitContext> read(std::string_view text,
+                                                       const std::string& beside);
 
     [[nodiscard]] const LodestarApi& api() const { return api_; }
     [[nodiscard]] LodestarContext* get() const { return context_.get(); }
@@ -29,7 +34,7 @@ public:
 private:
     using Owned = std::unique_ptr<LodestarContext, LodestarStatus (*)(LodestarContext*)>;
     LitContext(const LodestarApi& api, Owned context) : api_(api), context_(std::move(context)) {}
-    [[nodiscard]] core::Result<void> takeEnvironment(const std::string& file);
+    [[nodiscard]] core::Result<void> takeEnvironment(const std::string& beside);
 
     LodestarApi api_;
     Owned context_;

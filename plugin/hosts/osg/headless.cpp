@@ -65,6 +65,7 @@ osg::ref_ptr<osg::Image> drawOnce(osg::Group& root, const osg::Matrixd& view,
     viewer.getCamera()->setClearMask(0);
     viewer.realize();
     viewer.frame();
+    top->releaseGLObjects(window->getState()); // it may be drawn again, in another context
     return image;
 }
 

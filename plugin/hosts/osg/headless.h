@@ -11,10 +11,12 @@
 namespace lodestar::osghost {
 
 /// Makes a compatibility context without a surface current, which Debian's OpenSceneGraph draws
-/// with. It lasts to the end of the program. @return false where there is none
+/// with: a new one at each call. It lasts to the end of the program. @return false where there is
+/// none
 [[nodiscard]] bool makeContextCurrent();
 
-/// Draws a scene once: RGBA of 8 bits, row 0 at the bottom; what nothing covers is 0.
+/// Draws a scene once, by the first viewer of a context: RGBA of 8 bits, row 0 at the bottom; what
+/// nothing covers is 0.
 [[nodiscard]] osg::ref_ptr<osg::Image> drawOnce(osg::Group& root, const osg::Matrixd& view,
                                                 const osg::Matrixd& projection, int width,
                                                 int height);

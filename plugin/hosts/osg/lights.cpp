@@ -31,6 +31,7 @@ osg::ref_ptr<osg::Texture2DArray> makeArray(std::uint32_t width, std::uint32_t h
     texture->setWrap(osg::Texture::WRAP_T, osg::Texture::CLAMP_TO_EDGE);
     texture->setResizeNonPowerOfTwoHint(false);
     texture->setUseHardwareMipMapGeneration(false);
+    texture->setDataVariance(osg::Object::DYNAMIC);
     for (std::size_t i = 0; i < layers; ++i) {
         osg::ref_ptr<osg::Image> image = new osg::Image;
         image->allocateImage(static_cast<int>(width), static_cast<int>(height), 1, GL_RGBA,
@@ -121,11 +122,14 @@ Lights::Lights(const LodestarApi& api, LodestarContext* context, osg::StateSet& 
     : api_(api), context_(context), state_(&state), firstUnit_(firstUnit) {
     layout_.struct_size = sizeof layout_;
     api_.map_layout(&layout_);
+    // What a draw thread reads is left alone by the next update until it is drawn.
+    state.setDataVariance(osg::Object::DYNAMIC);
     int unit = firstUnit;
     for (const LodestarUniform& info : hosts::uniforms(api_)) {
         if (info.type == LODESTAR_UNIFORM_VEC4) {
             values_.push_back({info, new osg::Uniform(osg::Uniform::FLOAT_VEC4, info.name,
                                                       static_cast<int>(info.count))});
+            values_.back().uniform->setDataVariance(osg::Object::DYNAMIC);
             state.addUniform(values_.back().uniform);
             continue;
         }

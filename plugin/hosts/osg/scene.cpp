@@ -13,22 +13,20 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "hosts/material.h"
+#include "hosts/osg/material.h"
 #include "hosts/shading.h"
 
 namespace lodestar::osghost {
 namespace {
 
 /// @param index of the material in its file; io::kNone for that of primitives without one
-bool setMaterial(const io::GltfFile& file, int index, const hosts::LitContext& lit,
-                 osg::StateSet& state) {
+bool dress(const io::GltfFile& file, int index, const hosts::LitContext& lit,
+           osg::StateSet& state) {
     float packed[8];
     if (!hosts::packMaterial(lit, file, index, packed)) {
         return false;
     }
-    state.addUniform(new osg::Uniform("material_diffuse",
-                                      osg::Vec4(packed[0], packed[1], packed[2], packed[3])));
-    state.addUniform(
-        new osg::Uniform("material_f0", osg::Vec4(packed[4], packed[5], packed[6], packed[7])));
+    setMaterial(state, materialOf(packed));
     if (!hosts::isDoubleSided(file, index)) {
         state.setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
     }
@@ -75,7 +73,7 @@ osg::ref_ptr<osg::Node> nodeOf(const io::GltfFile& file, int index, const hosts:
                 continue;
             }
             osg::ref_ptr<osg::Geometry> geometry = geometryOf(primitive);
-            if (!setMaterial(file, primitive.material, lit, *geometry->getOrCreateStateSet())) {
+            if (!dress(file, primitive.material, lit, *geometry->getOrCreateStateSet())) {
                 return nullptr;
             }
             geode->addDrawable(geometry);

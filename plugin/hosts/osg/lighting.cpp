@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "hosts/osg/lighting.h"
+
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include <osg/FrameStamp>
+#include <osg/Notify>
+#include <osgDB/FileUtils>
+#include <osgDB/Options>
+#include <osgUtil/CullVisitor>
+
+#include "hosts/osg/lights.h"
+#include "hosts/osg/material.h"
+#include "hosts/osg/scene.h"
+#include "hosts/osg/thread_contexts.h"
+
+namespace lodestar::osghost {
+namespace {
+
+double wrapped(double hour) {
+    const double rest = std::fmod(hour, 24.0);
+    const double positive = rest < 0.0 ? rest + 24.0 : rest;
+    return positive < 24.0 ? positive : 0.0; // -1e-300 + 24 is 24
+}
+
+std::string found(const std::string& file, const std::string& folder) {
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+    if (!folder.empty()) {
+        options->getDatabasePathList().push_front(folder);
+    }
+    const std::string path = osgDB::findDataFile(file, options.get());
+    return path.empty() ? file : path; // the reader says what is wrong with it
+}
+
+} // namespace
+
+Lighting::Lighting() {
+    setNumChildrenRequiringUpdateTraversal(getNumChildrenRequiringUpdateTraversal() + 1);
+}
+
+Lighting::Lighting(const Lighting& other, const osg::CopyOp& copy)
+    : osg::Group(other, copy), document_(other.document_), file_(other.file_),
+      folder_(other.folder_), hour_(other.hour_), hoursPerSecond_(other.hoursPerSecond_) {
+    setNumChildrenRequiringUpdateTraversal(getNumChildrenRequiringUpdateTraversal() + 1);
+}
+
+Lighting::~Lighting() {
+    close();
+}
+
+void Lighting::setDocument(const std::string& text) {
+    if (text != document_) {
+        document_ = text;
+        close();
+    }
+}
+
+void Lighting::setFile(const std::string& name) {
+    if (name != file_) {
+        file_ = name;
+        close();
+    }
+}
+
+void Lighting::setFolder(const std::string& folder) {
+    if (folder != folder_) {
+        folder_ = folder;
+        close();
+    }
+}
+
+void Lighting::setHour(double hour) {
+    if (std::isfinite(hour)) {
+        hour_ = wrapped(hour);
+    }
+}
+
+void Lighting::setHoursPerSecond(double rate) {
+    if (std::isfinite(rate)) {
+        hoursPerSecond_ = rate;
+    }
+}
+
+void Lighting::traverse(osg::NodeVisitor& visitor) {
+    if (visitor.getVisitorType() == osg::NodeVisitor::UPDATE_VISITOR) {
+        update(visitor.getFrameStamp());
+    }
+    osgUtil::CullVisitor* const cull = state_.valid() ? visitor.asCullVisitor() : nullptr;
+    if (cull != nullptr) {
+        cull->pushStateSet(state_.get());
+    }
+    osg::Group::traverse(visitor);
+    if (cull != nullptr) {
+        cull->popStateSet();
+    }
+}
+
+void Lighting::update(const osg::FrameStamp* stamp) {
+    if (stamp != nullptr) {
+        const double time = stamp->getSimulationTime();
+        if (hasTime_) {
+            setHour(hour_ + hoursPerSecond_ * (time - lastTime_));
+        }
+        lastTime_ = time;
+        hasTime_ = true;
+    }
+    if (lit_ != nullptr && contexts_ != ThreadContexts::ofThisThread()) {
+        close(); // updates have moved to another thread
+    }
+    if (lit_ == nullptr && !refused_ && !(document_.empty() && file_.empty())) {
+        open();
+    }
+    if (lit_ != nullptr) {
+        contexts_->endReleased();
+        if (lights_->update(hour_) != LODESTAR_OK) {
+            refuse(lit_->refusal());
+        }
+    }
+}
+
+void Lighting::open() {
+    auto opened = document_.empty()
+                      ? hosts::LitContext::open(found(file_, folder_))
+                      : hosts::LitContext::read(
+                            document_, (std::filesystem::path(folder_) / "document").string());
+    if (!opened) {
+        refuse(opened.error());
+        return;
+    }
+    contexts_ = ThreadContexts::ofThisThread();
+    lit_ = contexts_->keep(std::move(*opened));
+    // A new one each time: the draw thread may still be leaving the last.
+    state_ = new osg::StateSet;
+    state_->setAttributeAndModes(programOf(lit_->api()));
+    setMaterial(*state_, Material{});
+    lights_ = std::make_unique<Lights>(lit_->api(), lit_->get(), *state_, 0);
+}
+
+void Lighting::close() {
+    lights_.reset();
+    state_ = nullptr;
+    if (lit_ != nullptr) {
+        contexts_->release(lit_);
+        lit_ = nullptr;
+    }
+    refused_ = false;
+}
+
+void Lighting::refuse(const core::Error& why) {
+    OSG_WARN << "lodestar::Lighting" << (getName().empty() ? "" : " \"" + getName() + "\"") << ": "
+             << why.message() << std::endl;
+    close();
+    refused_ = true;
+}
+
+void Lighting::resizeGLObjectBuffers(unsigned int size) {
+    osg::Group::resizeGLObjectBuffers(size);
+    if (state_.valid()) {
+        state_->resizeGLObjectBuffers(size);
+    }
+}
+
+void Lighting::releaseGLObjects(osg::State* state) const {
+    osg::Group::releaseGLObjects(state);
+    if (state_.valid()) {
+        state_->releaseGLObjects(state);
+    }
+}
+
+void Lighting::setThreadSafeRefUnref(bool safe) {
+    osg::Group::setThreadSafeRefUnref(safe);
+    if (state_.valid()) {
+        state_->setThreadSafeRefUnref(safe);
+    }
+}
+
+} // namespace lodestar::osghost
