@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+//
+// osg-threads: a day of an animated scene in OpenSceneGraph's four threading models, on a display.
+//     osg-threads [--frames N] [--plant]
+// Each model's pictures are the single thread's, and no draw sees its light change. With
+// --plant the light's StateSet says STATIC, so that OpenSceneGraph does not wait: the fault that
+// this and the thread sanitizer must see.
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <thread>
+#include <vector>
+
+#include <osg/Drawable>
+#include <osg/Texture2DArray>
+#include <osgViewer/Viewer>
+
+#include "hosts/osg/lighting.h"
+#include "hosts/osg/snapshot.h"
+#include "osg_scene.h"
+
+namespace lodestar::testing {
+namespace {
+
+using osghost::Lighting;
+constexpr int kWidth = 96, kHeight = 64;
+
+struct Model {
+    osgViewer::ViewerBase::ThreadingModel model;
+    const char* name;
+    bool drawsBesideUpdate;
+};
+constexpr Model kModels[] = {
+    {osgViewer::ViewerBase::SingleThreaded, "SingleThreaded", false},
+    {osgViewer::ViewerBase::CullDrawThreadPerContext, "CullDrawThreadPerContext", false},
+    {osgViewer::ViewerBase::DrawThreadPerContext, "DrawThreadPerContext", true},
+    {osgViewer::ViewerBase::CullThreadPerCameraDrawThreadPerContext,
+     "CullThreadPerCameraDrawThreadPerContext", true}};
+
+/// Reads what OpenSceneGraph's own draw reads, twice: its code cannot be instrumented, this is.
+class Watch : public osg::Drawable::DrawCallback {
+public:
+    explicit Watch(const Lighting& node) : node_(node) {}
+
+    void drawImplementation(osg::RenderInfo& info, const osg::Drawable* drawable) const override {
+        const std::vector<float> before = seen();
+        // Longer than an update, which would go on meanwhile if nothing held it.
+        std::this_thread::sleep_for(std::chrono::milliseconds(4));
+        ++drawn;
+        changed += seen() == before ? 0 : 1;
+        drawable->drawImplementation(info);
+    }
+
+    mutable std::atomic<int> drawn{0}, changed{0};
+
+private:
+    std::vector<float> seen() const {
+        const osg::StateSet& state = *node_.getLightState();
+        const osg::FloatArray& axes = *state.getUniform("lodestar_axes")->getFloatArray();
+        std::vector<float> values;
+        for (std::size_t i = 0; i < axes.size(); ++i) {
+            values.push_back(axes[i]);
+        }
+        values.push_back(
+            static_cast<float>((*state.getUniform("lodestar_count")->getIntArray())[0]));
+        for (unsigned unit = 0; unit < 3; ++unit) {
+            const auto* texture = static_cast<const osg::Texture2DArray*>(
+                state.getTextureAttribute(unit, osg::StateAttribute::TEXTURE));
+            const osg::Image& image = *texture->getImage(0);
+            const float* texels = reinterpret_cast<const float*>(image.data());
+            for (std::size_t i = 0; i < image.getTotalSizeInBytes() / sizeof(float); i += 16) {
+                values.push_back(texels[i]);
+            }
+        }
+        return values;
+    }
+
+    const Lighting& node_;
+};
+
+/// A day: the hour goes on, a ball moves.
+struct Day {
+    osg::ref_ptr<Lighting> lighting = new Lighting;
+    osg::ref_ptr<Watch> watch = new Watch(*lighting);
+
+    Day() {
+        lighting->setDocument(kDay);
+        lighting->setHour(7.0);
+        lighting->setHoursPerSecond(6.0);
+        addBalls(*lighting);
+        osg::Drawable& watched = *ballNode(0).getChild(0)->asGeode()->getDrawable(0);
+        watched.setUseDisplayList(false); // a list calls back once only
+        watched.setUseVertexBufferObjects(true);
+        watched.setDrawCallback(watch);
+    }
+    osg::MatrixTransform& ballNode(unsigned i) {
+        return static_cast<osg::MatrixTransform&>(*lighting->getChild(i));
+    }
+};
+
+bool openPbuffer(osgViewer::Viewer& viewer) {
+    const osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
+    traits->readDISPLAY();
+    traits->setUndefinedScreenDetailsToDefaultScreen();
+    traits->width = kWidth;
+    traits->height = kHeight;
+    traits->pbuffer = true;
+    traits->doubleBuffer = true;
+    traits->alpha = 0; // with alpha each swap of GLX's pbuffers is an X error
+    const osg::ref_ptr<osg::GraphicsContext> context =
+        osg::GraphicsContext::createGraphicsContext(traits);
+    if (!context) {
+        return false;
+    }
+    osg::Camera& camera = *viewer.getCamera();
+    camera.setGraphicsContext(context);
+    camera.setViewport(0, 0, kWidth, kHeight);
+    camera.setDrawBuffer(GL_BACK);
+    camera.setReadBuffer(GL_BACK);
+    camera.setClearColor(osg::Vec4(0, 0, 0, 1));
+    camera.setViewMatrix(viewOfBalls());
+    camera.setProjectionMatrix(projectionOfBalls());
+    camera.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+    return true;
+}
+
+using Picture = std::vector<unsigned char>;
+
+struct Outcome {
+    Picture middle, last;       ///< frames; empty: none
+    int drawn = 0, changed = 0; ///< of the watched ball
+};
+
+Picture bytesOf(const osg::Image& image) {
+    return {image.data(), image.data() + image.getTotalSizeInBytes()};
+}
+
+Outcome play(osgViewer::ViewerBase::ThreadingModel model, int frames, bool plant) {
+    Day day;
+    osgViewer::Viewer viewer;
+    if (!openPbuffer(viewer)) {
+        return {};
+    }
+    const osg::ref_ptr<osghost::Snapshot> middle =
+        new osghost::Snapshot(static_cast<unsigned>(frames / 2));
+    const osg::ref_ptr<osghost::Snapshot> last =
+        new osghost::Snapshot(static_cast<unsigned>(frames - 1));
+    viewer.getCamera()->addFinalDrawCallback(middle);
+    viewer.getCamera()->addFinalDrawCallback(last);
+    viewer.setSceneData(day.lighting);
+    viewer.setThreadingModel(model);
+    viewer.realize();
+    for (int i = 0; i < frames; ++i) {
+        const double time = i / 30.0;
+        day.ballNode(1).setMatrix(osg::Matrix::translate(1.1 - 0.8 * time, 0.5 * time, 0.0));
+        viewer.frame(time);
+        if (plant) {
+            day.lighting->getLightState()->setDataVariance(osg::Object::STATIC);
+        }
+    }
+    viewer.stopThreading();
+    return {bytesOf(middle->image()), bytesOf(last->image()), day.watch->drawn, day.watch->changed};
+}
+
+/// @return bytes that differ; -1 where there are not two whole pictures
+int count(const Picture& a, const Picture& b) {
+    if (a.size() != std::size_t{kWidth} * kHeight * 4 || b.size() != a.size()) {
+        return -1;
+    }
+    int different = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        different += a[i] != b[i] ? 1 : 0;
+    }
+    return different;
+}
+
+int run(int frames, bool plant) {
+    const Outcome wanted = play(kModels[0].model, frames, false);
+    const int motion = count(wanted.middle, wanted.last);
+    std::printf("half the day: %d bytes differ\n", motion);
+    bool passed = motion > 0;
+    for (const Model& model : kModels) {
+        const Outcome outcome = play(model.model, frames, plant);
+        const int middle = count(outcome.middle, wanted.middle);
+        const int last = count(outcome.last, wanted.last);
+        std::printf("%s: %d draws, %d saw their light change; %d and %d bytes differ\n", model.name,
+                    outcome.drawn, outcome.changed, middle, last);
+        const bool asExpected = plant ? (outcome.changed > 0) == model.drawsBesideUpdate
+                                      : outcome.changed == 0 && middle == 0 && last == 0;
+        passed = passed && asExpected && outcome.drawn == frames;
+    }
+    return passed ? 0 : 1;
+}
+
+} // namespace
+} // namespace lodestar::testing
+
+int main(int argc, char** argv) {
+    int frames = 36;
+    bool plant = false;
+    for (int i = 1; i < argc; ++i) {
+        if (std::strcmp(argv[i], "--plant") == 0) {
+            plant = true;
+        } else if (std::strcmp(argv[i], "--frames") == 0 && i + 1 < argc) {
+            frames = std::atoi(argv[++i]);
+        }
+    }
+    return lodestar::testing::run(frames < 4 ? 4 : frames, plant);
+}
