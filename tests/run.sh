@@ -15,7 +15,7 @@ input again under the address and undefined-behaviour sanitizers, in build-asan/
 
   --quick   label unit only, no sanitizers: the inner loop
   --long    sanitizers over unit, numerics, parity and gl as well, ten times the fuzzing, clang-tidy;
-            Khronos' glTF validator, where npm can install it
+            the thread sanitizer over OpenSceneGraph's threading models, in build-tsan/; Khronos' glTF validator, where npm can install it
   --help    this text
 
 One label alone: ctest --test-dir build -L parity
@@ -175,6 +175,13 @@ if [ $mode = long ]; then
     count "sanitized numerics" build-asan -L '^numerics$' --timeout 3600
     count "sanitized parity" build-asan -L '^parity$' --timeout 1800
     count "sanitized gl" build-asan -L '^gl$' --timeout 1800
+    say "thread sanitizer"
+    bash tests/hosts/thread_sanitizer.sh
+    case $? in
+    0) passed=$((passed + 1)) ;;
+    77) skipped=$((skipped + 1)) ;;
+    *) failed=$((failed + 1)) ;;
+    esac
     say "clang-tidy"
     if bash tests/tidy.sh; then
         passed=$((passed + 1))

@@ -42,14 +42,18 @@ constexpr Model kModels[] = {
 /// Reads what OpenSceneGraph's own draw reads, twice: its code cannot be instrumented, this is.
 class Watch : public osg::Drawable::DrawCallback {
 public:
-    explicit Watch(const Lighting& node) : node_(node) {}
+    /// @param patience how long a draw waits for its light to change, at most [ms]
+    Watch(const Lighting& node, int patience) : node_(node), patience_(patience) {}
 
     void drawImplementation(osg::RenderInfo& info, const osg::Drawable* drawable) const override {
         const std::vector<float> before = seen();
-        // Longer than an update, which would go on meanwhile if nothing held it.
-        std::this_thread::sleep_for(std::chrono::milliseconds(4));
+        bool same = true;
+        for (int waited = 0; waited < patience_ && same && changed < kEnough; waited += 2) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+            same = seen() == before;
+        }
         ++drawn;
-        changed += seen() == before ? 0 : 1;
+        changed += same ? 0 : 1;
         drawable->drawImplementation(info);
     }
 
@@ -77,15 +81,17 @@ private:
         return values;
     }
 
+    static constexpr int kEnough = 3;
     const Lighting& node_;
+    int patience_;
 };
 
 /// A day: the hour goes on, a ball moves.
 struct Day {
     osg::ref_ptr<Lighting> lighting = new Lighting;
-    osg::ref_ptr<Watch> watch = new Watch(*lighting);
+    osg::ref_ptr<Watch> watch;
 
-    Day() {
+    explicit Day(int patience) : watch(new Watch(*lighting, patience)) {
         lighting->setDocument(kDay);
         lighting->setHour(7.0);
         lighting->setHoursPerSecond(6.0);
@@ -138,7 +144,8 @@ Picture bytesOf(const osg::Image& image) {
 }
 
 Outcome play(osgViewer::ViewerBase::ThreadingModel model, int frames, bool plant) {
-    Day day;
+    // An update lasts about a millisecond; the fault is waited for, however slow the machine is.
+    Day day(plant ? 500 : 4);
     osgViewer::Viewer viewer;
     if (!openPbuffer(viewer)) {
         return {};
@@ -182,13 +189,16 @@ int run(int frames, bool plant) {
     std::printf("half the day: %d bytes differ\n", motion);
     bool passed = motion > 0;
     for (const Model& model : kModels) {
+        if (plant && !model.drawsBesideUpdate) {
+            continue;
+        }
         const Outcome outcome = play(model.model, frames, plant);
         const int middle = count(outcome.middle, wanted.middle);
         const int last = count(outcome.last, wanted.last);
         std::printf("%s: %d draws, %d saw their light change; %d and %d bytes differ\n", model.name,
                     outcome.drawn, outcome.changed, middle, last);
-        const bool asExpected = plant ? (outcome.changed > 0) == model.drawsBesideUpdate
-                                      : outcome.changed == 0 && middle == 0 && last == 0;
+        const bool asExpected =
+            plant ? outcome.changed > 0 : outcome.changed == 0 && middle == 0 && last == 0;
         passed = passed && asExpected && outcome.drawn == frames;
     }
     return passed ? 0 : 1;
