@@ -10,7 +10,6 @@
 #include "io/image_file.h"
 
 namespace lodestar::samples {
-namespace {
 
 bool takeWord(HostCall& call, const std::string& word, const char* value) {
     float x = 0.0f, y = 0.0f, z = 0.0f;
@@ -37,6 +36,8 @@ bool takeWord(HostCall& call, const std::string& word, const char* value) {
     }
     return true;
 }
+
+namespace {
 
 /// The words of a call; nothing where they are none.
 std::optional<HostCall> parse(int argc, char** argv) {
@@ -67,7 +68,18 @@ int explain(const char* name, int argc, char** argv) {
     return asked ? 0 : 2;
 }
 
-core::Result<HostScene> load(const HostCall& call) {
+core::Result<void> drawInto(const HostCall& call, HostDraw draw) {
+    const auto scene = loadScene(call);
+    if (!scene) {
+        return scene.error();
+    }
+    const auto picture = draw(call, *scene);
+    return picture ? io::writeImage(call.output, *picture) : picture.error();
+}
+
+} // namespace
+
+core::Result<HostScene> loadScene(const HostCall& call) {
     auto file = io::loadGltf(call.scene, {});
     if (!file) {
         return core::inFile(file.error(), call.scene);
@@ -80,17 +92,6 @@ core::Result<HostScene> load(const HostCall& call) {
     }
     return HostScene{std::move(*file), *view};
 }
-
-core::Result<void> drawInto(const HostCall& call, HostDraw draw) {
-    const auto scene = load(call);
-    if (!scene) {
-        return scene.error();
-    }
-    const auto picture = draw(call, *scene);
-    return picture ? io::writeImage(call.output, *picture) : picture.error();
-}
-
-} // namespace
 
 int runHost(const char* name, int argc, char** argv, HostDraw draw) {
     const auto call = parse(argc, argv);

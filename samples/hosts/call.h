@@ -38,6 +38,10 @@ int runHost(const char* name, int argc, char** argv, HostDraw draw);
 /// Says on stderr what a host does not show of a scene, a line each.
 void warn(const char* name, const HostCall& call, const core::Tally& leftOut);
 
+/// Takes one word of a call and its value. @return false if there is no such word, or no such value
+[[nodiscard]] bool takeWord(HostCall& call, const std::string& word, const char* value);
+[[nodiscard]] core::Result<HostScene> loadScene(const HostCall& call);
+
 /// A picture of 8 bits a channel, RGBA, row 0 at the bottom.
 [[nodiscard]] core::Image pictureOf(const HostCall& call, const std::uint8_t* bytes);
 

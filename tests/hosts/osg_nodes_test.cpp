@@ -16,9 +16,11 @@
 #include <osgDB/Registry>
 #include <osgDB/WriteFile>
 #include <osgUtil/UpdateVisitor>
+#include <osgViewer/View>
 
 #include "golden/gltf_builder.h"
 #include "hosts/osg/headless.h"
+#include "hosts/osg/hour_keys.h"
 #include "hosts/osg/lighting.h"
 #include "hosts/osg/lights.h"
 #include "hosts/osg/scene.h"
@@ -235,6 +237,32 @@ TEST(OsgMaterial, IsTwoUniforms) {
     EXPECT_EQ(read->exponent, 40.0f);
     state->removeUniform("material_f0");
     EXPECT_FALSE(osghost::materialOf(*state));
+}
+
+TEST(OsgHourKeys, MoveThroughTheDay) {
+    const osg::ref_ptr<Lighting> node = new Lighting;
+    osghost::HourKeys keys(*node);
+    const osg::ref_ptr<osgViewer::View> view = new osgViewer::View;
+    const auto press = [&](int key, int modifiers = 0) {
+        const osg::ref_ptr<osgGA::GUIEventAdapter> event = new osgGA::GUIEventAdapter;
+        event->setEventType(osgGA::GUIEventAdapter::KEYDOWN);
+        event->setKey(key);
+        event->setModKeyMask(modifiers);
+        return keys.handle(*event, *view);
+    };
+    node->setHour(23.75);
+    EXPECT_TRUE(press(osgGA::GUIEventAdapter::KEY_Right));
+    EXPECT_EQ(node->getHour(), 0.0);
+    EXPECT_TRUE(press(osgGA::GUIEventAdapter::KEY_Left));
+    EXPECT_EQ(node->getHour(), 23.75);
+    EXPECT_TRUE(press(osgGA::GUIEventAdapter::KEY_Left, osgGA::GUIEventAdapter::MODKEY_SHIFT));
+    EXPECT_EQ(node->getHour(), 23.75 - 1.0 / 60.0);
+    node->setHoursPerSecond(2.0);
+    EXPECT_TRUE(press('p'));
+    EXPECT_EQ(node->getHoursPerSecond(), 0.0);
+    EXPECT_TRUE(press('p'));
+    EXPECT_EQ(node->getHoursPerSecond(), 2.0);
+    EXPECT_FALSE(press('q')) << "other keys are the viewer's";
 }
 
 /// The node of a scene that was read.

@@ -153,7 +153,7 @@ Outcome play(osgViewer::ViewerBase::ThreadingModel model, int frames, bool plant
     const osg::ref_ptr<osghost::Snapshot> middle =
         new osghost::Snapshot(static_cast<unsigned>(frames / 2));
     const osg::ref_ptr<osghost::Snapshot> last =
-        new osghost::Snapshot(static_cast<unsigned>(frames - 1));
+        new osghost::Snapshot(static_cast<unsigned>(frames));
     viewer.getCamera()->addFinalDrawCallback(middle);
     viewer.getCamera()->addFinalDrawCallback(last);
     viewer.setSceneData(day.lighting);
@@ -167,6 +167,7 @@ Outcome play(osgViewer::ViewerBase::ThreadingModel model, int frames, bool plant
             day.lighting->getLightState()->setDataVariance(osg::Object::STATIC);
         }
     }
+    last->wait(20.0);
     viewer.stopThreading();
     return {bytesOf(middle->image()), bytesOf(last->image()), day.watch->drawn, day.watch->changed};
 }

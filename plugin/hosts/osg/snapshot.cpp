@@ -15,7 +15,12 @@ void Snapshot::operator()(osg::RenderInfo& info) const {
         image_->readPixels(static_cast<int>(viewport->x()), static_cast<int>(viewport->y()),
                            static_cast<int>(viewport->width()),
                            static_cast<int>(viewport->height()), GL_RGBA, GL_UNSIGNED_BYTE);
+        taken_.release();
     }
+}
+
+bool Snapshot::wait(double seconds) const {
+    return taken_.block(static_cast<unsigned long>(1000.0 * seconds));
 }
 
 } // namespace lodestar::osghost
