@@ -62,13 +62,13 @@ public:
 private:
     std::vector<float> seen() const {
         const osg::StateSet& state = *node_.getLightState();
-        const osg::FloatArray& axes = *state.getUniform("lodestar_axes")->getFloatArray();
         std::vector<float> values;
-        for (std::size_t i = 0; i < axes.size(); ++i) {
-            values.push_back(axes[i]);
+        for (const auto& [name, uniform] : state.getUniformList()) {
+            const osg::FloatArray* floats = uniform.first->getFloatArray();
+            for (std::size_t i = 0; floats != nullptr && i < floats->size(); ++i) {
+                values.push_back((*floats)[i]);
+            }
         }
-        values.push_back(
-            static_cast<float>((*state.getUniform("lodestar_count")->getIntArray())[0]));
         for (unsigned unit = 0; unit < 3; ++unit) {
             const auto* texture = static_cast<const osg::Texture2DArray*>(
                 state.getTextureAttribute(unit, osg::StateAttribute::TEXTURE));
