@@ -25,6 +25,7 @@
 #include "hosts/osg/lights.h"
 #include "hosts/osg/scene.h"
 #include "hosts/osg/thread_contexts.h"
+#include "io/image_file.h"
 #include "osg_scene.h"
 
 namespace lodestar::testing {
@@ -119,6 +120,31 @@ TEST_F(OsgNodes, AFileIsFoundBesideTheSceneAndAmongDataFiles) {
         EXPECT_TRUE(same(*drawn(*node), *wanted));
     }
     osgDB::Registry::instance()->getDataFilePathList().pop_front();
+}
+
+TEST_F(OsgNodes, AnEnvironmentIsFoundBesideTheDocumentOrTheScene) {
+    const TemporaryFolder folder, elsewhere;
+    core::Image room(16, 8, 3);
+    for (int y = 0; y < 8; ++y) {
+        for (int x = 0; x < 16; ++x) {
+            room.at(x, y)[x < 8 ? 0 : 2] = y < 4 ? 1.0f : 0.2f;
+        }
+    }
+    ASSERT_TRUE(io::writeImage(folder / "room.exr", room));
+    const std::string text = R"({"lodestar": 1, "environment": {"source": "room.exr"}})";
+    osg::ref_ptr<Lighting> byFile = litBalls(9.0), byText = litBalls(9.0);
+    byFile->setDocument("");
+    byFile->setFile(folder.write("room.lodestar.json", text).string());
+    byText->setDocument(text);
+    byText->setFolder(folder.path().string());
+    const osg::ref_ptr<osg::Image> wanted = drawn(*byFile);
+    EXPECT_TRUE(same(*drawn(*byText), *wanted));
+    EXPECT_FALSE(same(*drawn(*litBalls(9.0)), *wanted));
+    const osg::ref_ptr<Heard> heard = Heard::listen();
+    byText->setFolder(elsewhere.path().string());
+    EXPECT_FALSE(same(*drawn(*byText), *wanted));
+    EXPECT_NE(heard->text.find("room.exr"), std::string::npos) << heard->text;
+    osg::setNotifyHandler(new osg::StandardNotifyHandler);
 }
 
 TEST_F(OsgNodes, AChildWithoutAMaterialIsWhite) {
