@@ -106,17 +106,16 @@ void Lighting::update(const osg::FrameStamp* stamp) {
         lastTime_ = time;
         hasTime_ = true;
     }
-    if (lit_ != nullptr && contexts_ != ThreadContexts::ofThisThread()) {
+    const std::shared_ptr<ThreadContexts> here = ThreadContexts::ofThisThread();
+    here->endReleased();
+    if (lit_ != nullptr && contexts_ != here) {
         close(); // updates have moved to another thread
     }
     if (lit_ == nullptr && !refused_ && !(document_.empty() && file_.empty())) {
         open();
     }
-    if (lit_ != nullptr) {
-        contexts_->endReleased();
-        if (lights_->update(hour_) != LODESTAR_OK) {
-            refuse(lit_->refusal());
-        }
+    if (lit_ != nullptr && lights_->update(hour_) != LODESTAR_OK) {
+        refuse(lit_->refusal());
     }
 }
 
