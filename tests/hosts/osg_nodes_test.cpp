@@ -296,13 +296,18 @@ Lighting* lightingOf(osg::Node* scene) {
     return dynamic_cast<Lighting*>(scene);
 }
 
+/// The folder of the build's programs and modules.
+std::string buildFolder() {
+    const std::string own = LODESTAR_EXECUTABLE;
+    return own.substr(0, own.rfind('/'));
+}
+
 TEST_F(OsgNodes, ASceneKeepsIt) {
     // This program has no serializers: they come with the module, by OSG_LIBRARY_PATH.
     osgDB::Registry& registry = *osgDB::Registry::instance();
-    const std::string own = LODESTAR_EXECUTABLE;
     registry.setLibraryFilePathList(osgDB::FilePathList());
     ASSERT_EQ(registry.getObjectWrapperManager()->findWrapper("lodestar::Lighting"), nullptr);
-    setenv("OSG_LIBRARY_PATH", own.substr(0, own.rfind('/')).c_str(), 1);
+    setenv("OSG_LIBRARY_PATH", buildFolder().c_str(), 1);
     registry.initLibraryFilePathList();
     ASSERT_NE(registry.getObjectWrapperManager()->findWrapper("lodestar::Lighting"), nullptr);
 
@@ -331,6 +336,17 @@ TEST_F(OsgNodes, ASceneKeepsIt) {
         EXPECT_EQ(back->getStateSet(), nullptr) << name;
         EXPECT_EQ(back->getFolder(), folder.path().string()) << name;
     }
+    // A program that knows nothing of Lodestar reads, updates and writes it, without a word.
+    const std::string from = (folder / "scene.osgt").string(), to = (folder / "copy.osgt").string();
+    const std::string words = (folder / "words").string();
+    const std::string plain =
+        buildFolder() + "/osg-plain " + from + " " + to + " >" + words + " 2>&1";
+    ASSERT_EQ(std::system(plain.c_str()), 0);
+    EXPECT_EQ(std::filesystem::file_size(words), 0u);
+    const osg::ref_ptr<osg::Node> copy = osgDB::readRefNodeFile(to);
+    ASSERT_NE(lightingOf(copy), nullptr);
+    EXPECT_TRUE(same(*drawn(*lightingOf(copy)), *wanted));
+    EXPECT_NE(std::system(("OSG_LIBRARY_PATH= " + plain).c_str()), 0) << "whence did it know";
 }
 
 } // namespace
