@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -162,6 +163,9 @@ Outcome play(osgViewer::ViewerBase::ThreadingModel model, int frames, bool plant
     for (int i = 0; i < frames; ++i) {
         const double time = i / 30.0;
         day.ballNode(1).setMatrix(osg::Matrix::translate(1.1 - 0.8 * time, 0.5 * time, 0.0));
+        if (i == frames / 4 && !plant) { // the same again, by another context and StateSet
+            day.lighting->setDocument(std::string(kDay) + "\n");
+        }
         viewer.frame(time);
         if (plant) {
             day.lighting->getLightState()->setDataVariance(osg::Object::STATIC);

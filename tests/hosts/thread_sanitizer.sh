@@ -5,7 +5,8 @@
 # locks, threads and memcpy. Exit status 77 (a skip) where OpenSceneGraph or Xvfb is missing.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
-command -v Xvfb >/dev/null || { echo 'thread sanitizer: skipped: needs Xvfb'; exit 77; }
+bash tests/hosts/on_display.sh true
+[ $? -eq 77 ] && exit 77
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 export LIBGL_ALWAYS_SOFTWARE=1
