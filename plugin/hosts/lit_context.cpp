@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hosts/lit_context.h"
 
+#include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "io/document_file.h"
@@ -9,25 +11,32 @@
 
 namespace lodestar::hosts {
 
-core::Result<LitContext> LitContext::open(const std::string& file) {
+core::Result<LitContext> LitContext::open(const std::string& file, const Frame& frame) {
     const auto bytes = io::readFile(file);
     if (!bytes) {
         return bytes.error();
     }
-    auto result = read({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, file);
+    auto result = read({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, file, frame);
     if (!result) {
         return core::inFile(result.error(), file);
     }
     return result;
 }
 
-core::Result<LitContext> LitContext::read(std::string_view text, const std::string& beside) {
+core::Result<LitContext> LitContext::read(std::string_view text, const std::string& beside,
+                                          const Frame& frame) {
     LodestarApi api{};
     api.struct_size = sizeof api;
+    LodestarHost host{};
+    host.struct_size = sizeof host;
+    std::copy(std::begin(frame.up), std::end(frame.up), host.up);
+    std::copy(std::begin(frame.north), std::end(frame.north), host.north);
     LodestarContext* context = nullptr;
-    if (lodestar_get_api(LODESTAR_ABI_VERSION, &api) != LODESTAR_OK ||
-        api.context_create(nullptr, &context) != LODESTAR_OK) {
+    if (lodestar_get_api(LODESTAR_ABI_VERSION, &api) != LODESTAR_OK) {
         return core::Error{core::ErrorCode::Internal, "the library cannot be used", {}, {}};
+    }
+    if (api.context_create(&host, &context) != LODESTAR_OK) {
+        return core::Error{core::ErrorCode::Internal, api.last_error(nullptr), {}, {}};
     }
     LitContext result(api, Owned(context, api.context_destroy));
     if (api.document_load(context, text.data(), text.size(), &result.document_) != LODESTAR_OK ||

@@ -13,17 +13,24 @@
 
 namespace lodestar::hosts {
 
+/// Which way is up and which north in a host's scene; a document's own at first.
+struct Frame {
+    double up[3] = {0.0, 1.0, 0.0};
+    double north[3] = {0.0, 0.0, -1.0};
+};
+
 /// Move-only; used on the thread that opened it. Ends its context with itself.
 class LitContext {
 public:
     /// Its environment's file is read from the document's folder or below.
     /// @errors InputRefused naming the file and the JSON pointer, also where it has no light;
     /// Internal if the library and its header do not fit
-    [[nodiscard]] static core::Result<LitContext> open(const std::string& file);
+    [[nodiscard]] static core::Result<LitContext> open(const std::string& file,
+                                                       const Frame& frame = {});
     /// The same by a document's text. @param beside a file's path, in whose folder or below its
     /// environment's file is looked for; errors of the text itself name no file
-    [[nodiscard]] static core::Result<LitContext> read(std::string_view text,
-                                                       const std::string& beside);
+    [[nodiscard]] static core::Result<LitContext>
+    read(std::string_view text, const std::string& beside, const Frame& frame = {});
 
     [[nodiscard]] const LodestarApi& api() const { return api_; }
     [[nodiscard]] LodestarContext* get() const { return context_.get(); }

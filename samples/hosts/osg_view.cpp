@@ -14,6 +14,7 @@
 #include <osgViewer/Viewer>
 
 #include "call.h"
+#include "hosts/material.h"
 #include "hosts/osg/headless.h"
 #include "hosts/osg/hour_keys.h"
 #include "hosts/osg/lighting.h"
@@ -184,6 +185,7 @@ core::Result<void> run(const ViewCall& call) {
     if (!lit) {
         return lit.error();
     }
+    warn("lodestar-host-osg-view", call.host, hosts::leftOut(loaded->file));
     const osg::ref_ptr<osg::Group> scene = osghost::sceneOf(loaded->file, *lit);
     if (!scene) {
         return core::inFile(lit->refusal(), call.host.scene);

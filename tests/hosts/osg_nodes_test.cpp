@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // lodestar::Lighting as OpenSceneGraph's users meet it: a node of a scene, in a file, on threads.
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -63,6 +64,15 @@ bool same(const osg::Image& a, const osg::Image& b) {
     EXPECT_EQ(a.getTotalSizeInBytes(), 96u * 64u * 4u);
     EXPECT_EQ(b.getTotalSizeInBytes(), 96u * 64u * 4u);
     return std::memcmp(a.data(), b.data(), a.getTotalSizeInBytes()) == 0;
+}
+
+/// How far two pictures are apart at most, in steps of 8 bits.
+int largest(const osg::Image& a, const osg::Image& b) {
+    int most = 0;
+    for (unsigned i = 0; i < a.getTotalSizeInBytes(); ++i) {
+        most = std::max(most, std::abs(int{a.data()[i]} - int{b.data()[i]}));
+    }
+    return most;
 }
 
 /// What one update traversal does.
@@ -144,6 +154,33 @@ TEST_F(OsgNodes, AnEnvironmentIsFoundBesideTheDocumentOrTheScene) {
     byText->setFolder(elsewhere.path().string());
     EXPECT_FALSE(same(*drawn(*byText), *wanted));
     EXPECT_NE(heard->text.find("room.exr"), std::string::npos) << heard->text;
+    osg::setNotifyHandler(new osg::StandardNotifyHandler);
+}
+
+TEST_F(OsgNodes, ASceneMayHaveZUp) {
+    // The balls, the camera and the sky stand as before, all turned: Y north, Z up.
+    const osg::Matrixd turn = osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0));
+    const osg::ref_ptr<osg::MatrixTransform> turned = new osg::MatrixTransform(turn);
+    addBalls(*turned);
+    const osg::ref_ptr<Lighting> node = new Lighting;
+    node->setDocument(kDay);
+    node->setHour(9.0);
+    node->addChild(turned);
+    const auto shown = [&] {
+        EXPECT_TRUE(osghost::makeContextCurrent());
+        return osghost::drawOnce(*node, osg::Matrixd::inverse(turn) * viewOfBalls(),
+                                 projectionOfBalls(), 96, 64);
+    };
+    const osg::ref_ptr<osg::Image> wanted = drawn(*litBalls(9.0));
+    EXPECT_GT(largest(*shown(), *wanted), 20);
+    node->setUp(osg::Vec3d(0, 0, 2));
+    node->setNorth(osg::Vec3d(0, 1, 0));
+    // Sines and cosines of the turn are rounded: a step of 8 bits.
+    EXPECT_LE(largest(*shown(), *wanted), 1);
+    const osg::ref_ptr<Heard> heard = Heard::listen();
+    node->setNorth(osg::Vec3d(0, 0, 1));
+    update(*node, 0.0);
+    EXPECT_NE(heard->text, "") << "up and north are one";
     osg::setNotifyHandler(new osg::StandardNotifyHandler);
 }
 
@@ -315,6 +352,8 @@ TEST_F(OsgNodes, ASceneKeepsIt) {
     folder.write("day.lodestar.json", std::string(kDay));
     const osg::ref_ptr<Lighting> node = litBalls(17.123456789012);
     node->setHoursPerSecond(0.0625);
+    node->setUp(osg::Vec3d(0.25, 1.0, 0.0));
+    node->setNorth(osg::Vec3d(1.0, 0.0, 0.0));
     node->setName("hall");
     node->setFile("day.lodestar.json");
     const osg::ref_ptr<osg::Image> wanted = drawn(*node);
@@ -329,6 +368,8 @@ TEST_F(OsgNodes, ASceneKeepsIt) {
         EXPECT_EQ(back->getHour(), node->getHour()) << name;
         EXPECT_EQ(back->getHoursPerSecond(), 0.0625) << name;
         EXPECT_EQ(back->getName(), "hall") << name;
+        EXPECT_EQ(back->getUp(), node->getUp()) << name;
+        EXPECT_EQ(back->getNorth(), node->getNorth()) << name;
         EXPECT_TRUE(same(*drawn(*back), *wanted)) << name;
         back->setHour(10.0);
         EXPECT_FALSE(same(*drawn(*back), *wanted)) << name;

@@ -42,7 +42,8 @@ Lighting::Lighting() {
 
 Lighting::Lighting(const Lighting& other, const osg::CopyOp& copy)
     : osg::Group(other, copy), document_(other.document_), file_(other.file_),
-      folder_(other.folder_), hour_(other.hour_), hoursPerSecond_(other.hoursPerSecond_) {
+      folder_(other.folder_), up_(other.up_), north_(other.north_), hour_(other.hour_),
+      hoursPerSecond_(other.hoursPerSecond_) {
     setNumChildrenRequiringUpdateTraversal(getNumChildrenRequiringUpdateTraversal() + 1);
 }
 
@@ -67,6 +68,20 @@ void Lighting::setFile(const std::string& name) {
 void Lighting::setFolder(const std::string& folder) {
     if (folder != folder_) {
         folder_ = folder;
+        close();
+    }
+}
+
+void Lighting::setUp(const osg::Vec3d& up) {
+    if (up != up_) {
+        up_ = up;
+        close();
+    }
+}
+
+void Lighting::setNorth(const osg::Vec3d& north) {
+    if (north != north_) {
+        north_ = north;
         close();
     }
 }
@@ -120,10 +135,11 @@ void Lighting::update(const osg::FrameStamp* stamp) {
 }
 
 void Lighting::open() {
-    auto opened = document_.empty()
-                      ? hosts::LitContext::open(found(file_, folder_))
-                      : hosts::LitContext::read(
-                            document_, (std::filesystem::path(folder_) / "document").string());
+    const hosts::Frame frame{.up = {up_.x(), up_.y(), up_.z()},
+                             .north = {north_.x(), north_.y(), north_.z()}};
+    const std::string beside = (std::filesystem::path(folder_) / "document").string();
+    auto opened = document_.empty() ? hosts::LitContext::open(found(file_, folder_), frame)
+                                    : hosts::LitContext::read(document_, beside, frame);
     if (!opened) {
         refuse(opened.error());
         return;

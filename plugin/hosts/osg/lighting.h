@@ -8,6 +8,7 @@
 
 #include <osg/Group>
 #include <osg/StateSet>
+#include <osg/Vec3d>
 
 #include "hosts/lit_context.h"
 
@@ -17,8 +18,7 @@ class Lights;
 class ThreadContexts;
 
 /// A group whose children are drawn by `programOf` under a document's lights at an hour; each says
-/// its material by `setMaterial`, or is white. The world's up is the document's: a scene with Z up
-/// stands under a transform that turns it.
+/// its material by `setMaterial`, or is white.
 ///
 /// Properties are set as those of any node: between frames, or in event and update traversals.
 /// `lodestar::Lighting` is its name in OpenSceneGraph's own formats, which keep the properties
@@ -46,6 +46,13 @@ public:
     void setFolder(const std::string& folder);
     [[nodiscard]] const std::string& getFolder() const { return folder_; }
 
+    /// The scene's up and north in world coordinates, of any length; (0, 1, 0) and (0, 0, -1) at
+    /// first, a document's own. OpenSceneGraph's usual ones are (0, 0, 1) and (0, 1, 0).
+    void setUp(const osg::Vec3d& up);
+    [[nodiscard]] const osg::Vec3d& getUp() const { return up_; }
+    void setNorth(const osg::Vec3d& north);
+    [[nodiscard]] const osg::Vec3d& getNorth() const { return north_; }
+
     /// Local solar time [h, 0 to 24; others are wrapped, what is not finite is passed over].
     void setHour(double hour);
     [[nodiscard]] double getHour() const { return hour_; }
@@ -72,6 +79,7 @@ private:
     void refuse(const core::Error& why);
 
     std::string document_, file_, folder_;
+    osg::Vec3d up_{0.0, 1.0, 0.0}, north_{0.0, 0.0, -1.0};
     double hour_ = 15.0, hoursPerSecond_ = 0.0;
     double lastTime_ = 0.0; ///< simulation time of the last update
     bool hasTime_ = false;

@@ -70,6 +70,8 @@ REGISTER_OBJECT_WRAPPER2(lodestar_Lighting, new Lighting, lodestar::osghost::Lig
                            osgDB::BaseSerializer::RW_STRING);
     wrapper->addSerializer(new Placed("File", "", &MyClass::getFile, &MyClass::setFile),
                            osgDB::BaseSerializer::RW_STRING);
+    ADD_VEC3D_SERIALIZER(Up, osg::Vec3d(0.0, 1.0, 0.0));
+    ADD_VEC3D_SERIALIZER(North, osg::Vec3d(0.0, 0.0, -1.0));
     wrapper->addSerializer(new Exact("Hour", 15.0, &MyClass::getHour, &MyClass::setHour),
                            osgDB::BaseSerializer::RW_DOUBLE);
     wrapper->addSerializer(
