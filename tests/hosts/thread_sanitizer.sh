@@ -9,7 +9,9 @@ bash tests/hosts/on_display.sh true
 [ $? -eq 77 ] && exit 77
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
-export LIBGL_ALWAYS_SOFTWARE=1
+# Mesa's own drawing threads end each other's waiting by futexes, which the sanitizer does not see:
+# without them Mesa draws in OpenSceneGraph's draw thread. No report is suppressed.
+export LIBGL_ALWAYS_SOFTWARE=1 LP_NUM_THREADS=0
 
 if ! cmake -S . -B build-tsan -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DLODESTAR_SANITIZE=thread \
     -DLODESTAR_BUILD_SAMPLES=OFF >"$log" 2>&1; then
