@@ -11,6 +11,7 @@
 
 #include "context.h"
 #include "core/contract.h"
+#include "core/shared_memory.h"
 #include "gl/shader_source.h"
 #include "lighting/rsrm.h"
 
@@ -22,6 +23,15 @@ thread_local char creationError[256] = "";
 /// A broken contract inside the library is a status outside.
 [[noreturn]] void throwContract(const char* rule, const char* message, const char*, int) {
     throw std::logic_error(std::string(message) + ": " + rule);
+}
+
+/// What bakes maps: half a second of work each, the same for all contexts.
+const std::shared_ptr<lighting::RsrmKernels>& sharedKernels() {
+    static const std::shared_ptr<lighting::RsrmKernels> kernels = [] {
+        const core::SharedMemory shared;
+        return std::make_shared<lighting::RsrmKernels>();
+    }();
+    return kernels;
 }
 
 LodestarStatus contextCreate(const LodestarHost* host, LodestarContext** context) noexcept {
@@ -52,7 +62,7 @@ LodestarStatus contextCreate(const LodestarHost* host, LodestarContext** context
         made->allocator = allocator;
         made->host = given;
         made->hostFromDocument = *frame;
-        made->kernels = std::make_shared<lighting::RsrmKernels>();
+        made->kernels = sharedKernels();
         *context = made.release();
         return LODESTAR_OK;
     } catch (const std::bad_alloc&) {

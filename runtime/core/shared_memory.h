@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Memory that outlives the call it is made in: tables kept for the next map, say. Where callers
-// lend a library their memory, such tables must not be of it.
+// Memory that outlives the call it is made in, tables kept for the next map, say; or of things
+// whose end takes memory itself. Where callers lend a library their memory, which may run out or
+// go, such things must not be of it.
 #pragma once
 
 namespace lodestar::core {

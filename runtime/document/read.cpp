@@ -238,7 +238,7 @@ core::Result<Document> parseDocument(std::string_view text, core::Tally& warning
         return tree.error();
     }
     Refusal refusal;
-    const Reader root(*tree, {}, refusal);
+    const Reader root(tree->json(), {}, refusal);
     Document document;
     if (root.isObject()) {
         readVersion(root);

@@ -57,10 +57,11 @@ struct Watch {
 
 } // namespace
 
-core::Result<Json> parseTree(std::string_view text) {
+core::Result<Tree> parseTree(std::string_view text) {
     if (text.size() > kMaxTextBytes) {
         return core::refused("a lighting document has at most 64 MiB");
     }
+    const core::SharedMemory shared;
     Watch watch;
     try {
         Json tree = Json::parse(text.begin(), text.end(),
@@ -73,7 +74,7 @@ core::Result<Json> parseTree(std::string_view text) {
         if (!watch.twice.empty()) {
             return core::refused("an object has the member \"" + watch.twice + "\" twice");
         }
-        return tree;
+        return Tree(std::move(tree));
     } catch (const Json::parse_error& error) {
         return core::refused("this is not JSON, or its end is missing", placeOf(text, error.byte));
     } catch (const Json::exception&) {
@@ -114,6 +115,7 @@ std::optional<Reader> Reader::needed(const char* name) const {
 }
 
 std::string Reader::unknown(std::initializer_list<const char*> known) const {
+    const core::SharedMemory shared; // as a Tree
     Json rest = Json::object();
     for (const auto& [name, value] : value_.items()) {
         if (std::find(known.begin(), known.end(), name) == known.end()) {

@@ -13,14 +13,32 @@
 #include <nlohmann/json.hpp>
 
 #include "core/result.h"
+#include "core/shared_memory.h"
 
 namespace lodestar::document {
 
 using Json = nlohmann::ordered_json;
 
+/// A tree of JSON values. Its end takes memory itself, and nobody could be told that there is none:
+/// it is made and ended in shared memory.
+class Tree {
+public:
+    explicit Tree(Json json) : json_(std::move(json)) {}
+    Tree(Tree&&) noexcept = default;
+    Tree& operator=(Tree&&) = delete;
+    ~Tree() {
+        const core::SharedMemory shared;
+        json_ = nullptr;
+    }
+    [[nodiscard]] const Json& json() const { return json_; }
+
+private:
+    Json json_;
+};
+
 /// The text as a tree. @errors InputRefused: no JSON (line and column), a member twice in an
 /// object, too large, too deep
-[[nodiscard]] core::Result<Json> parseTree(std::string_view text);
+[[nodiscard]] core::Result<Tree> parseTree(std::string_view text);
 
 /// Where a refusal is kept.
 using Refusal = std::optional<core::Error>;

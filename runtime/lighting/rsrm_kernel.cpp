@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/contract.h"
+#include "core/shared_memory.h"
 #include "lighting/rsrm_weights.h"
 #include "lighting/vector_clones.h"
 
@@ -168,6 +169,7 @@ std::shared_ptr<const RsrmKernel> RsrmKernels::get(const RsrmLayout& layout, Lig
             return entry.kernel;
         }
     }
+    const core::SharedMemory shared;
     const std::vector<double> thetas = columnAngles(layout.columnMap, layout.columns);
     const std::vector<double> exponents = bakedExponents(layout);
     auto kernel = std::make_shared<RsrmKernel>(

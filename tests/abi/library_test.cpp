@@ -289,29 +289,31 @@ LodestarStatus afternoon(const LodestarApi& api, LodestarContext* context,
 
 // Whichever allocation fails, the call says so, nothing is lost, and the same call then works.
 TEST_F(Abi, MemoryThatRunsOutIsAStatus) {
-    // One key and one light: a small document, so that every allocation can have its turn.
+    // One key and one light, in tables that are there already: every allocation has its turn.
     const std::string text =
         R"({"lodestar": 1, "lights": [{"kind": "sky", "add": true, "keys": [{"hour": 12, "gradient": {"stops": [
             {"at": 90, "color": [0.1, 0.2, 0.4]}, {"at": -90, "color": [1, 1, 1]}]}}]}]})";
     counting.calls = 0;
     ASSERT_EQ(afternoon(api, context, text), LODESTAR_OK);
     const std::size_t calls = counting.calls;
-    ASSERT_GT(calls, 100u);
-    // All of the first hundred, then some of the many that the kernels make.
-    std::size_t failed = 0;
-    for (std::size_t at = 0; at < calls; at += at < 100 ? 1 : calls / 20) {
+    ASSERT_GT(calls, 40u);
+    std::size_t failed = 0, absorbed = 0;
+    for (std::size_t at = 0; at < calls; ++at) {
         LodestarContext* other = nullptr;
         const LodestarHost host = counting.host();
         counting.failAt = std::numeric_limits<std::size_t>::max();
         ASSERT_EQ(api.context_create(&host, &other), LODESTAR_OK);
         counting.calls = 0;
         counting.failAt = at;
-        EXPECT_EQ(afternoon(api, other, text), LODESTAR_E_NOMEM) << "allocation " << at;
-        ++failed;
+        const LodestarStatus status = afternoon(api, other, text);
+        // A sort that is denied its buffer sorts in place.
+        EXPECT_TRUE(status == LODESTAR_E_NOMEM || status == LODESTAR_OK) << "allocation " << at;
+        (status == LODESTAR_OK ? absorbed : failed) += 1;
         counting.failAt = std::numeric_limits<std::size_t>::max();
+        EXPECT_EQ(afternoon(api, other, text), LODESTAR_OK) << "the same call works then";
         EXPECT_EQ(api.context_destroy(other), LODESTAR_OK);
     }
-    EXPECT_GT(failed, 100u);
+    EXPECT_GT(failed, 9 * absorbed);
     counting.calls = 0;
     counting.failAt = 0;
     LodestarContext* none = nullptr;

@@ -25,8 +25,9 @@ class ThreadContexts;
 /// alone: what it draws with is its own, not its StateSet. Copies share nothing but children.
 ///
 /// The library's context is opened by the first update traversal, on that traversal's thread, and
-/// anew where a later one comes on another thread. The node may be deleted on any thread. Opening
-/// takes about a second: a node that is to appear at once is updated before it is shown.
+/// anew where a later one comes on another thread. The node may be deleted on any thread. The first
+/// of a program takes about a second to open: one that is to appear at once is updated before it is
+/// shown.
 ///
 /// A document that is refused is said once, as osg::WARN, and children are drawn as below a Group.
 class Lighting : public osg::Group {

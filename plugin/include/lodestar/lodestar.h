@@ -87,7 +87,9 @@ typedef struct LodestarHost {
     uint32_t struct_size;
     uint32_t reserved;
     void* user; /* passed back to every function */
-    /* Both or none; alignment 16. Called on the thread of the call that needs memory. */
+    /* Both or none; alignment 16. Called on the thread of the call that needs memory. Tables that
+     * all contexts share are not of it: some megabytes of the C library's, until the library goes.
+     */
     void* (*allocate)(void* user, size_t size);
     void (*release)(void* user, void* memory);
     void (*log)(void* user, int32_t number, const char* utf8);
