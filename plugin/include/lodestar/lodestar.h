@@ -64,7 +64,7 @@ enum {
     LODESTAR_E_NOMEM = -3,       /* the host's allocator gave null */
     LODESTAR_E_STATE = -4,       /* a bug of this library; the context should be destroyed */
     LODESTAR_E_UNSUPPORTED = -5, /* known, but not by this build */
-    LODESTAR_E_THREAD = -6,      /* a [main] function on another thread */
+    LODESTAR_E_THREAD = -6,      /* a [main] or [gl] function on another thread */
     LODESTAR_E_DOCUMENT = -7     /* a document was refused; last_error names the JSON pointer */
 };
 
@@ -288,8 +288,8 @@ typedef struct LodestarPlannedLight {
     uint32_t reserved;
 } LodestarPlannedLight;
 
-/* A face of a captured environment that the host is to draw: everything around but what moves with
- * `environment`'s own object; the pixels go to environment_face. */
+/* A face of a captured environment that the host is to draw: what stands around its position, but
+ * not the object that it is of; the pixels go to environment_face. */
 typedef struct LodestarFaceJob {
     uint32_t struct_size;
     int32_t face; /* OpenGL's order */
