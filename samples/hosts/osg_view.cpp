@@ -15,6 +15,7 @@
 
 #include "call.h"
 #include "hosts/material.h"
+#include "hosts/osg/backdrop.h"
 #include "hosts/osg/headless.h"
 #include "hosts/osg/hour_keys.h"
 #include "hosts/osg/lighting.h"
@@ -30,6 +31,7 @@ struct ViewCall {
     double rate = 0.5;  ///< hours a second
     int threading = -1; ///< of osgViewer::ViewerBase::ThreadingModel; -1: OpenSceneGraph's choice
     int frames = 0;     ///< 0: until the window is closed
+    bool backdrop = true;
 };
 
 bool hasDisplay() {
@@ -58,6 +60,8 @@ std::optional<ViewCall> parse(int argc, char** argv) {
         const std::string word = argv[i];
         if (word.empty() || word[0] != '-') {
             call.host.scene = word;
+        } else if (word == "--no-backdrop") {
+            call.backdrop = false;
         } else if (i + 1 == argc || !takeViewWord(call, word, argv[++i])) {
             return {};
         }
@@ -73,7 +77,7 @@ int explain(int argc, char** argv) {
         asked ? stdout : stderr,
         "usage: lodestar-host-osg-view SCENE --lighting FILE [--hour H] [--hours-per-second R]\n"
         "           [--size WxH] [--eye X,Y,Z --target X,Y,Z] [--fov DEGREES]\n"
-        "           [--threading 0..3] [--frames N [-o OUT.png]]\n"
+        "           [--threading 0..3] [--no-backdrop] [--frames N [-o OUT.png]]\n"
         "Shows a glTF scene in OpenSceneGraph under a lighting document whose day goes on.\n"
         "The pointer turns, moves and zooms; left and right: a quarter of an hour, with Shift a\n"
         "minute; P: stop and resume the day; Space: the first view; Escape: end.\n"
@@ -195,6 +199,9 @@ core::Result<void> run(const ViewCall& call) {
     lighting->setHour(call.host.hour);
     lighting->setHoursPerSecond(call.rate);
     lighting->addChild(scene);
+    if (call.backdrop) {
+        lighting->addChild(osghost::backdrop(lit->api()));
+    }
     return show(call, *loaded, *lighting);
 }
 

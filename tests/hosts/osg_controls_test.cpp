@@ -7,6 +7,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "host_pictures.h"
+#include "hosts/osg/backdrop.h"
 #include "hosts/osg/headless.h"
 #include "hosts/osg/lights.h"
 #include "hosts/osg/scene.h"
@@ -76,6 +77,17 @@ constexpr auto kOver = osg::StateAttribute::OVERRIDE;
 
 TEST_F(Controls, ARightPicturePasses) {
     EXPECT_TRUE(passes(draw(), expected_, "as it is"));
+}
+
+// What nothing covers shows the lights, as the built-in renderer's backdrop; it changes neither
+// near nor far.
+TEST_F(Controls, TheBackdropIsTheLights) {
+    root_->addChild(osghost::backdrop(lit_->api()));
+    const core::Image own = drawn(program("lodestar") + " render --samples 1", folder_, scene_,
+                                  lighting_, "17.5", " --eye 4,2,5 --target 0,0,0");
+    EXPECT_TRUE(passes(draw(), own, "with its backdrop"));
+    EXPECT_FALSE(passes(own, expected_, "without"));
+    EXPECT_FALSE(root_->getChild(root_->getNumChildren() - 1)->getBound().valid());
 }
 
 TEST_F(Controls, DepthTestOffFails) {

@@ -60,13 +60,18 @@ constexpr const char* kView = "lodestar-host-osg-view";
 
 TEST_F(OsgView, WithoutADisplayItDrawsWhatThePlainHostDraws) {
     const core::Image plain = drawn(kNoDisplay, "lodestar-host-osg", "--hour 8");
-    const core::Image first = drawn(kNoDisplay, kView, "--hour 8 --frames 1");
+    const core::Image first = drawn(kNoDisplay, kView, "--hour 8 --frames 1 --no-backdrop");
     EXPECT_LE(compare(first, plain, kStep).largest, kStep);
     // Half a second at two hours a second is an hour later.
-    const core::Image later = drawn(kNoDisplay, kView, "--hour 8 --hours-per-second 2 --frames 16");
+    const core::Image later =
+        drawn(kNoDisplay, kView, "--hour 8 --hours-per-second 2 --frames 16 --no-backdrop");
     EXPECT_LE(compare(later, drawn(kNoDisplay, "lodestar-host-osg", "--hour 9"), kStep).largest,
               kStep);
     EXPECT_GT(compare(later, plain, kStep).largest, 10.0 * kStep);
+    // With its backdrop what nothing covers is opaque.
+    const core::Image whole = drawn(kNoDisplay, kView, "--hour 8 --frames 1");
+    EXPECT_EQ(whole.at(0, 0)[3], 1.0f);
+    EXPECT_EQ(first.at(0, 0)[0], 0.0f);
 }
 
 TEST_F(OsgView, OnADisplayItDrawsTheSameByAllThreads) {
