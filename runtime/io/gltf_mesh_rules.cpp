@@ -102,7 +102,8 @@ private:
         for (std::size_t set = 0; set < kInfluenceSets; ++set) {
             std::size_t found = 0;
             for (const char* name : {"JOINTS", "WEIGHTS"}) {
-                const bool has = attributes.contains(name + ("_" + std::to_string(set)));
+                const bool has =
+                    attributes.contains(std::string(name).append("_").append(std::to_string(set)));
                 sets[name] -= has ? 1U : 0U;
                 found += has ? 1U : 0U;
             }

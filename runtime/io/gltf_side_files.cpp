@@ -173,7 +173,8 @@ core::Result<Bytes> SideFiles::read(const std::string& uri, std::size_t maxBytes
     }
     const std::string path = percentDecoded(uri);
     if (path.empty() || path.front() == '/') {
-        return core::refused("'" + uri.substr(0, 256) + "' leads out of the asset folder");
+        return core::refused(
+            std::string("'").append(uri, 0, 256).append("' leads out of the asset folder"));
     }
     return root_.read(prefix_ + path, maxBytes);
 }

@@ -64,7 +64,7 @@ public:
         close(ends[1]);
         char number[16] = {};
         if (read(ends[0], number, sizeof number - 1) > 0) {
-            name_ = ":" + std::to_string(std::atoi(number));
+            name_ = std::string(1, ':').append(std::to_string(std::atoi(number)));
             setenv("DISPLAY", name_.c_str(), 1);
             manager_ = start({"openbox"});
         }

@@ -131,8 +131,8 @@ TEST_F(Blocks, EverySingleFeatureCompiles) {
     const gl::Defines none = everything(3, 0, false);
     for (std::size_t feature = 0; feature + 2 < none.size(); ++feature) {
         gl::Defines defines = none;
-        defines[feature].second = "1";
-        defines[0].second = "1";
+        defines[feature].second.assign(1, '1');
+        defines[0].second.assign(1, '1');
         auto program = gl::Program::make(device(), "host/mesh.vert", "host/mesh.frag", defines);
         EXPECT_TRUE(program.ok()) << defines[feature].first << ": " << program.error().message();
     }

@@ -208,7 +208,7 @@ const Golden kGoldens[] = {
 class Goldens : public GlTest {
 public:
     static std::string path(const Golden& golden) {
-        return std::string(LODESTAR_TEST_DATA) + "/golden/images/" + golden.name + ".exr";
+        return std::string(LODESTAR_TEST_DATA "/golden/images/").append(golden.name).append(".exr");
     }
     core::Image render(const Golden& golden, const Fault& fault = {}) {
         const scene::Scene scene = golden.scene(fault);
