@@ -135,10 +135,9 @@ core::Result<PlacedEnvironment> PlacedEnvironment::make(const LodestarEnvironmen
     if (!cube) {
         return cube.error();
     }
-    // Six faces are the host's already, turned about its own way up; others are a document's.
     const glm::quat frame(glm::quat_cast(hostFromDocument));
     const glm::quat own =
-        desc.layout == LODESTAR_CUBE ? glm::conjugate(frame) : glm::quat(1.0f, 0.0f, 0.0f, 0.0f);
+        desc.in_host_frame != 0 ? glm::conjugate(frame) : glm::quat(1.0f, 0.0f, 0.0f, 0.0f);
     result.show(lighting::placed(std::move(*cube), frame * lighting::aboutUp(desc.rotation) * own,
                                  desc.ev));
     return result;

@@ -320,14 +320,20 @@ TEST_F(AbiFrame, UpAndNorthAreTheHosts) {
     EXPECT_EQ(seen(east), glm::dvec3(1, 0, 0));
     EXPECT_EQ(seen(north), glm::dvec3(0, 1, 0));
     EXPECT_EQ(seen(up), glm::dvec3(0, 0, 1));
-    // Six faces are in the host's own frame.
+    // Six faces as a document's files have them, and as the host's own renderer draws them.
     std::vector<float> faces(6 * 4 * 3, 0.0f);
     for (std::size_t i = 0; i < 4; ++i) {
         faces[4 * 4 * 3 + 3 * i] = 7.0f; // +Z
     }
-    ASSERT_EQ(api.set_environment(context, make(pixels(LODESTAR_CUBE, 2, 12, faces, 3))),
-              LODESTAR_OK);
+    LodestarEnvironmentDesc cube = pixels(LODESTAR_CUBE, 2, 12, faces, 3);
+    ASSERT_EQ(api.set_environment(context, make(cube)), LODESTAR_OK);
+    const double south[3] = {0, -1, 0};
+    EXPECT_EQ(seen(south).r, 7.0) << "a document's +Z";
+    EXPECT_EQ(seen(up).r, 0.0);
+    cube.in_host_frame = 1;
+    ASSERT_EQ(api.set_environment(context, make(cube)), LODESTAR_OK);
     EXPECT_EQ(seen(up).r, 7.0);
+    EXPECT_EQ(seen(south).r, 0.0);
     // A sky's axis is up, a sun given by an axis stands there, one on a path is south at noon.
     ASSERT_EQ(api.set_environment(context, 0), LODESTAR_OK);
     Sun sun;

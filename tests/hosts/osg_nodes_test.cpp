@@ -177,6 +177,17 @@ TEST_F(OsgNodes, ASceneMayHaveZUp) {
     node->setNorth(osg::Vec3d(0, 1, 0));
     // Sines and cosines of the turn are rounded: a step of 8 bits.
     EXPECT_LE(largest(*shown(), *wanted), 1);
+    // A document's environment turns with them; a gradient of 0.1 to 1.1 over the sphere changes by
+    // less than a step of 8 bits within a texel, which is what turning a cube blurs.
+    const std::string around = R"({"lodestar": 1, "environment": {"source": "gradient:0.1,1.1"}})";
+    const osg::ref_ptr<Lighting> plain = new Lighting;
+    plain->setDocument(around);
+    addBalls(*plain);
+    EXPECT_TRUE(osghost::makeContextCurrent());
+    const osg::ref_ptr<osg::Image> straight =
+        osghost::drawOnce(*plain, viewOfBalls(), projectionOfBalls(), 96, 64);
+    node->setDocument(around);
+    EXPECT_LE(largest(*shown(), *straight), 1);
     const osg::ref_ptr<Heard> heard = Heard::listen();
     node->setNorth(osg::Vec3d(0, 0, 1));
     update(*node, 0.0);

@@ -143,12 +143,10 @@ typedef struct LodestarLightDesc {
 
 /* Where an environment's light comes from. */
 enum {
-    LODESTAR_LATLONG =
-        0, /* pixels; centre column north, rightwards to east, top up; width = 2 height */
-    LODESTAR_CUBE = 1, /* pixels of six square faces in OpenGL's order, each below the last, in the
-                          host's frame */
-    LODESTAR_ANALYTIC = 2, /* a text: `constant:1,1,1`, `gradient:0,1`, `disc:...`, `faces:...`, in
-                              a document's frame */
+    LODESTAR_LATLONG = 0,  /* pixels; centre column north, rightwards to east, top up; width = 2
+                              height */
+    LODESTAR_CUBE = 1,     /* pixels of six square faces in OpenGL's order, each below the last */
+    LODESTAR_ANALYTIC = 2, /* a text: `constant:1,1,1`, `gradient:0,1`, `disc:...`, `faces:...` */
     LODESTAR_CAPTURED = 3  /* what the host draws for the face jobs of plans: a static probe */
 };
 
@@ -165,6 +163,9 @@ typedef struct LodestarEnvironmentDesc {
     double ev;                    /* radiance x 2^ev, [-64, 64] */
     double position[3];           /* where it is captured */
     double near_plane, far_plane; /* of what is captured, 0 < near < far */
+    uint32_t in_host_frame; /* 0: what is given stands in a document's frame, as its files do; 1: in
+                               the host's, as read_cube's pixels do */
+    uint32_t reserved;
 } LodestarEnvironmentDesc;
 
 /* One of an environment's two cubes, as a GPU takes it: RGBA, level by level, six faces in OpenGL's
