@@ -12,6 +12,7 @@
 
 #include "lighting/environment.h"
 #include "lighting/estimator.h"
+#include "plan/probe_plan.h"
 
 namespace lodestar::plan {
 
@@ -40,6 +41,8 @@ enum class Feature : std::uint32_t {
     RsrmLights = 1u << 20,           ///< skies and suns as radially symmetric maps
     Shadows = 1u << 21,              ///< some sun is hidden by what stands before it
     RsrmMirror = 1u << 22,           ///< lobes sharper than the maps' last row show the gradients
+    Probe = 1u << 23,                ///< a light probe holds it
+    SecondProbe = 1u << 24,          ///< and another
 };
 
 using Features = std::uint32_t;
@@ -71,8 +74,10 @@ struct DrawView {
     std::uint32_t material = 0;
     bool mirrored = false; ///< its triangles wind the other way
     int indexCount = 0;
-    std::uint64_t morphBytes = 0; ///< of its vertices with morph targets added; 0: it has none
-    bool weightsChanged = true;   ///< of its morph targets, since they were last added
+    std::uint64_t morphBytes = 0;    ///< of its vertices with morph targets added; 0: it has none
+    bool weightsChanged = true;      ///< of its morph targets, since they were last added
+    glm::vec3 low{0.0f}, high{0.0f}; ///< world box about it
+    std::uint32_t layers = 0xffffffffu; ///< captured where it shares a bit with the probe's
     bool operator==(const DrawView&) const = default;
 };
 
@@ -118,6 +123,7 @@ struct PlanInput {
     std::size_t instancesPerPage = std::numeric_limits<std::size_t>::max();
     std::vector<CaptureView> captures;
     int faceBudget = 0; ///< faces captured in a frame, at most
+    std::vector<ProbeView> probes;
     lighting::Estimator specular = lighting::kDefaultSpecular;
     lighting::Estimator diffuse = lighting::kDefaultDiffuse;
     bool jointsMoved = true;      ///< since they were last uploaded
@@ -172,10 +178,35 @@ struct CaptureFace {
     bool operator==(const CaptureFace&) const = default;
 };
 
+/// A face of a probe, and what is drawn into it.
+struct ProbeFace {
+    std::size_t probe = 0;              ///< into PlanInput::probes
+    int face = 0;                       ///< OpenGL's order
+    std::vector<std::size_t> drawOrder; ///< indices into PlanInput::draws
+    std::vector<Features> drawFeatures; ///< in its order
+    std::vector<ProbeChoice> choices;   ///< in its order; never the probe itself
+    std::vector<Batch> batches;         ///< of its order
+    bool operator==(const ProbeFace&) const = default;
+};
+
+/// What is made of a probe's captured faces, after they are drawn.
+struct ProbeWork {
+    std::size_t probe = 0;
+    bool publish = false;    ///< the faces drawn since the last take the place of the old ones
+    float fade = 1.0f;       ///< how much of the way from what shows to what was published, (0, 1]
+    bool compose = false;    ///< the sky behind the captured geometry, into level 0
+    int lastLevel = 0;       ///< the mip levels 1 to this are made
+    bool irradiance = false; ///< its irradiance is made
+    bool operator==(const ProbeWork&) const = default;
+};
+
 struct EffectPlan {
     std::vector<Effect> effects;
     std::vector<CaptureFace> captureFaces;
-    lighting::PreparedParts prepare; ///< parts to make now
+    std::vector<ProbeFace> probeFaces;    ///< in the order in which they are drawn
+    std::vector<ProbeWork> probeWork;     ///< one a probe that needs any
+    std::vector<ProbeChoice> drawChoices; ///< in drawOrder's order; empty where there are no probes
+    lighting::PreparedParts prepare;      ///< parts to make now
     std::vector<std::size_t>
         drawOrder; ///< indices into PlanInput::draws: opaque, then blended back to front
     std::vector<Features> drawFeatures; ///< shader features, in drawOrder's order

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+//
+// What is known of probes from the frames before: which faces have gone stale and why, what has
+// been drawn and not been published, under what light it was captured. Values only; a renderer
+// keeps one history a probe, describes it to the planner, and tells it what was done.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "plan/probe_plan.h"
+
+namespace lodestar::plan {
+
+/// Something that has moved, appeared or gone since the frame before.
+struct Moved {
+    std::string subject;
+    glm::vec3 low{0.0f}, high{0.0f}; ///< world box about where it was and where it is
+    double speed = 0.0;              ///< metres this frame
+};
+
+/// What lights the world at a frame.
+struct LightState {
+    /// Of each source the irradiance that a surface facing it gets, times the unit direction
+    /// towards it (a sky's: its irradiance about +Y, with +Y), rgb a row. Sources keep their
+    /// places.
+    std::vector<std::array<glm::dvec3, 3>> sources;
+    std::uint64_t sky = 0; ///< another value where what stands behind captured geometry has changed
+    bool operator==(const LightState&) const = default;
+};
+
+/// By how much light bounced off a matt surface may differ between two states, relative to the
+/// earlier's sum: the sum over sources of the vectors' differences bounds it for any normal.
+[[nodiscard]] double lightChange(const LightState& then, const LightState& now);
+
+struct ProbeHistory {
+    std::array<bool, 6> stale{true, true, true, true, true, true};
+    std::array<bool, 6> drawn{};
+    bool ready = false;
+    bool requested = false;
+    std::string because = "it shows nothing yet";
+    int waiting = 0;          ///< frames
+    int sinceCapture = 0;     ///< frames since the last was published
+    double speed = 0.0;       ///< metres a frame
+    int fadeLeft = 0;         ///< frames
+    LightState capturedUnder; ///< while its faces were drawn
+    std::uint64_t composedUnder = 0;
+    bool operator==(const ProbeHistory&) const = default;
+};
+
+/// Marks what has changed since the frame before and fills the view's part that comes of it.
+/// `view`'s influence, position, capture, update, every, fromFile are set already.
+void observe(ProbeHistory& history, ProbeView& view, std::span<const Moved> moved,
+             const LightState& light, double lightThreshold);
+
+/// Notes what a plan has had done. @param light the frame's
+void executed(ProbeHistory& history, std::size_t probe, const EffectPlan& plan,
+              const LightState& light);
+
+} // namespace lodestar::plan

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+//
+// Which probes light a draw, and what a frame does for them: faces captured, skies composed behind
+// them, mips and irradiance made.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "lighting/probe.h"
+
+namespace lodestar::plan {
+
+struct PlanInput;
+struct EffectPlan;
+
+/// A probe as the planner sees it.
+struct ProbeView {
+    std::string subject;
+    /// Absent: it has no inside, or its node is gone; it lights nothing and costs nothing.
+    std::optional<lighting::PlacedVolume> influence;
+    glm::vec3 position{0.0f}; ///< where it captures, in the world
+    lighting::ProbeCapture capture;
+    lighting::ProbeUpdate update = lighting::ProbeUpdate::OnChange;
+    int every = 1;
+    int priority = 0;
+    bool interior = false;
+    bool fromFile = false;       ///< holds a file's light: nothing is captured
+    bool ready = false;          ///< it has been published: it can light
+    std::array<bool, 6> stale{}; ///< faces that no longer show what is there, or never did
+    std::array<bool, 6> drawn{}; ///< faces drawn anew since it was last published
+    std::string because;         ///< what made them stale: "the lift moved"
+    int waiting = 0;             ///< frames since its first stale face became so
+    double speed = 0.0;          ///< of the fastest thing that made it so, metres a frame
+    double lightChange = 0.0;    ///< relative change of what lights its geometry since captured
+    bool requested = false;      ///< asked for, of ProbeUpdate::OnDemand
+    bool skyChanged = false;     ///< what stands behind its geometry, since it was composed
+    int fadeLeft = 0;            ///< frames until what was published last shows fully
+    bool operator==(const ProbeView&) const;
+};
+
+/// The two probes that light a draw, the one in front first; what shaders/lodestar/probes.glsl
+/// calls w0, w1 belong to them point by point.
+struct ProbeChoice {
+    static constexpr int kNone = -1;
+    std::array<int, 2> probe{kNone, kNone}; ///< into PlanInput::probes
+    std::array<float, 2> factor{};          ///< f0, f1 of lodestar_probeShares
+    float open = 1.0f;                      ///< the same's
+    bool operator==(const ProbeChoice&) const = default;
+};
+
+/// Finds the probes about a box quickly. Holds references to what it was made of.
+class ProbeIndex {
+public:
+    explicit ProbeIndex(std::span<const ProbeView> probes);
+    ~ProbeIndex();
+    /// The choice for a draw. Probes stand in order of priority, the smaller volume, the list: each
+    /// hides those behind it by its mean weight over the box. The two that show most are taken; a
+    /// third that shows as much as the second drives the factor to 0, so that nothing jumps when it
+    /// takes its place. @param except a probe that is left out, whose own capture it is
+    [[nodiscard]] ProbeChoice choose(const glm::vec3& low, const glm::vec3& high,
+                                     int except = ProbeChoice::kNone) const;
+    /// The probes whose influence a box touches, in the order that `choose` uses.
+    void touching(const glm::vec3& low, const glm::vec3& high, std::vector<int>& out) const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// Decides all that concerns probes and says so. @pre result.drawOrder is made
+void planProbes(const PlanInput& input, EffectPlan& result);
+
+} // namespace lodestar::plan
