@@ -7,15 +7,19 @@
 namespace lodestar::app {
 
 nlohmann::json toJson(const plan::Effect& effect) {
-    return {{"effect", effect.effect},
-            {"subject", effect.subject},
-            {"decision", effect.decision == plan::Decision::Run ? "run" : "skip"},
-            {"reason", effect.reason},
-            {"cost",
-             {{"draws", effect.cost.draws},
-              {"passes", effect.cost.passes},
-              {"texels_written", effect.cost.texelsWritten},
-              {"upload_bytes", effect.cost.uploadBytes}}}};
+    nlohmann::json json = {{"effect", effect.effect},
+                           {"subject", effect.subject},
+                           {"decision", effect.decision == plan::Decision::Run ? "run" : "skip"},
+                           {"reason", effect.reason},
+                           {"cost",
+                            {{"draws", effect.cost.draws},
+                             {"passes", effect.cost.passes},
+                             {"texels_written", effect.cost.texelsWritten},
+                             {"upload_bytes", effect.cost.uploadBytes}}}};
+    if (!effect.faces.empty()) {
+        json["faces"] = effect.faces;
+    }
+    return json;
 }
 
 nlohmann::json toJson(const plan::EffectPlan& plan) {
@@ -41,7 +45,7 @@ nlohmann::json toJson(const gl::WorkCounters& counters) {
             {"program_switches", counters.programSwitches},
             {"shader_compilations", counters.shaderCompilations},
             {"state_queries", counters.stateQueries},
-            {"probe_faces", 0},
+            {"probe_faces", counters.probeFaces},
             {"texture_bytes", counters.textureBytes},
             {"gl_errors", counters.glErrors}};
 }

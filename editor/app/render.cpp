@@ -28,6 +28,7 @@ struct RenderOptions {
     int samples = 0;       ///< a pixel; 0: 4 for PNG, 1 for EXR
     int frames = 1;
     double fps = 0.0; ///< 0: not given, all frames show one time
+    double hoursPerSecond = 0.0;
 };
 
 enum class OutputKind { Png, Exr };
@@ -55,7 +56,8 @@ std::string framePath(const std::string& output, int frame) {
 }
 
 nlohmann::json stats(const std::vector<scene::Frame>& frames, const gl::WorkCounters& total,
-                     const LoadedScene& loaded, const gl::Device& device) {
+                     const LoadedScene& loaded, const core::Tally& probeWarnings,
+                     const gl::Device& device) {
     nlohmann::json perFrame = nlohmann::json::array();
     for (const scene::Frame& frame : frames) {
         perFrame.push_back({{"counters", toJson(frame.counters)},
@@ -65,6 +67,7 @@ nlohmann::json stats(const std::vector<scene::Frame>& frames, const gl::WorkCoun
     core::Tally warnings = loaded.light.environment.warnings;
     warnings.merge(loaded.scene.warnings);
     warnings.merge(loaded.lightWarnings);
+    warnings.merge(probeWarnings);
     warnings.add("pixel not finite, set to 0", frames.back().repairedPixels);
     return {{"plan", toJson(*frames.back().plan)},
             {"counters", toJson(total)},
@@ -102,6 +105,8 @@ core::Result<void> renderAll(const RenderOptions& options, OutputKind kind, Load
     for (int i = 0; i < options.frames; ++i) {
         if (options.fps > 0.0) {
             const double seconds = options.scene.time.value_or(0.0) + i / options.fps;
+            loaded.settings.hour = lighting::wrappedHour(
+                loaded.settings.hour + (i > 0 ? options.hoursPerSecond / options.fps : 0.0));
             if (auto posed = loaded.poseAt(seconds); !posed) {
                 return posed;
             }
@@ -121,9 +126,12 @@ core::Result<void> renderAll(const RenderOptions& options, OutputKind kind, Load
         frame->radiance = {};
         frames.push_back(std::move(*frame));
     }
+    warn((*renderer)->probeWarnings(), loaded.lightsName);
     if (!options.stats.empty()) {
         const std::string text =
-            stats(frames, (*device)->counters(), loaded, **device).dump(2) + "\n";
+            stats(frames, (*device)->counters(), loaded, (*renderer)->probeWarnings(), **device)
+                .dump(2) +
+            "\n";
         if (auto written = io::writeFile(options.stats, text.data(), text.size()); !written) {
             return written;
         }
@@ -188,6 +196,10 @@ void addRender(CLI::App& app, int& status) {
         ->add_option("--fps", options->fps,
                      "Frame I shows the animation (default: the first) at --time + I/FPS seconds")
         ->check(CLI::Range(1e-3, 1e6));
+    command
+        ->add_option("--hours-per-second", options.hoursPerSecond,
+                     "With --fps, by how many hours the day goes on in a second of the animation")
+        ->check(CLI::Range(-24.0, 24.0));
     command->add_option("--stats", options->stats, "Write the plan, counters and times as JSON");
     command->footer(
         "Example: a model in a studio, one stop brighter\n"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/scene_lighting.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -9,12 +10,14 @@
 #include "app/command.h"
 #include "io/document_file.h"
 #include "lighting/environment.h"
+#include "scene/probe_observer.h"
 
 namespace lodestar::app {
 namespace {
 
 constexpr const char* kClearSky = "sky";
 constexpr double kMaxExponent = 1e7;
+constexpr int kWidestFileProbe = 2048; ///< texels of a face
 
 /// The document's environment, its source below the document's own folder.
 core::Result<DistantLight> documentEnvironment(const OpenedDocument& opened, int cubeWidth) {
@@ -123,6 +126,32 @@ void applyMaterials(const document::Document& document, scene::Scene& scene,
         }
         warnings.add("material that the scene lacks, left out", found ? 0 : 1);
     }
+}
+
+core::Result<void> addDocumentProbes(const OpenedDocument& opened, scene::Scene& scene,
+                                     core::Tally& warnings) {
+    std::vector<lighting::Probe> probes;
+    std::vector<lighting::Cubemap> maps;
+    for (const document::Probe& written : opened.document.probes) {
+        probes.push_back(written.probe);
+        maps.emplace_back();
+        if (written.probe.source.empty()) {
+            continue;
+        }
+        const auto source = io::environmentSource(written.probe.source, opened.file);
+        if (!source) {
+            return source.error();
+        }
+        auto loaded = io::loadEnvironment(
+            *source, std::min(written.probe.capture.resolution, kWidestFileProbe));
+        if (!loaded) {
+            return core::inFile(loaded.error(), *source);
+        }
+        warnings.merge(loaded->warnings);
+        maps.back() = std::move(loaded->base);
+    }
+    scene::addProbes(scene, probes, maps, warnings);
+    return {};
 }
 
 core::Result<double> hourOf(const SceneOptions& options, core::Tally& warnings) {

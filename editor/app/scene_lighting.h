@@ -36,6 +36,11 @@ distantLight(const SceneOptions& options, const OpenedFile& opened,
 /// names and the scene lacks is counted.
 void applyMaterials(const document::Document& document, scene::Scene& scene, core::Tally& warnings);
 
+/// Gives the scene the document's light probes; those that hold a file's light read it.
+/// @errors InputRefused naming the file
+[[nodiscard]] core::Result<void> addDocumentProbes(const OpenedDocument& opened,
+                                                   scene::Scene& scene, core::Tally& warnings);
+
 /// An hour in [0, 24); one outside is wrapped and counted. @errors Usage if it is not finite
 [[nodiscard]] core::Result<double> hourOf(const SceneOptions& options, core::Tally& warnings);
 

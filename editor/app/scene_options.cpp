@@ -177,6 +177,7 @@ core::Result<scene::RenderSettings> renderSettings(const SceneOptions& options) 
     settings.diffuse = *diffuse;
     settings.backdrop = !options.noBackdrop;
     settings.seamless = !options.faceSeams;
+    settings.faceBudget = options.faceBudget.value_or(settings.faceBudget);
     if (!options.materialOverride.empty()) {
         auto values = parseOverride(options.materialOverride);
         if (!values) {
@@ -232,6 +233,10 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
         "Diffuse estimator: irradiance (default), sh9, lowest-mip, bias:LAMBDA, or the lights'");
     command.add_option("--override-material", options.materialOverride,
                        "diffuse=R,G,B,f0=R,G,B,exponent=S for every material");
+    command
+        .add_option("--budget-faces", options.faceBudget,
+                    "Faces of light probes drawn in a frame, at most (default: all that are due)")
+        ->check(CLI::Range(0, 1000000));
     command.add_flag("--no-backdrop", options.noBackdrop, "Background 0 with alpha 0");
     command.add_flag("--face-seams", options.faceSeams,
                      "Filter each cube face on its own, to see what seamless filtering mends");
@@ -293,6 +298,10 @@ core::Result<LoadedScene> load(const SceneOptions& given) {
     loaded.scene = scene::buildScene(std::move(opened->file), opened->sceneIndex);
     if (*document) {
         applyMaterials((*document)->document, loaded.scene, loaded.lightWarnings);
+        if (auto added = addDocumentProbes(**document, loaded.scene, loaded.lightWarnings);
+            !added) {
+            return added.error();
+        }
         loaded.lightWarnings.merge((*document)->warnings);
         loaded.lights = std::move((*document)->lights);
         loaded.lightsName = (*document)->file;

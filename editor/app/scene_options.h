@@ -35,6 +35,7 @@ struct SceneOptions {
     std::optional<double> time; ///< seconds
     std::string specular, diffuse;
     std::string materialOverride;
+    std::optional<int> faceBudget; ///< faces of light probes a frame
     bool noBackdrop = false;
     bool faceSeams = false;
     int cubeWidth = io::kDefaultCubeWidth;

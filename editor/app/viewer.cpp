@@ -38,6 +38,9 @@ std::string formatted(const char* format, double value) {
     return text;
 }
 
+/// Faces of light probes drawn in a frame, where the command line says nothing.
+constexpr int kFacesAFrame = 2;
+
 std::string nameOf(const std::string& path) {
     return std::filesystem::path(path).filename().string();
 }
@@ -52,6 +55,7 @@ core::Result<std::unique_ptr<Viewer>> Viewer::make(gl::Device& device, LoadedSce
     std::unique_ptr<Viewer> viewer(new Viewer(device, options));
     viewer->lightChosen_ = !options.scene.environment.empty();
     viewer->settings_ = loaded.settings;
+    viewer->settings_.faceBudget = options.scene.faceBudget.value_or(kFacesAFrame);
     viewer->request_ = loaded.camera;
     viewer->sceneIndex_ = loaded.sceneIndex;
     viewer->sceneCount_ = loaded.sceneCount;
@@ -74,7 +78,7 @@ core::Result<std::unique_ptr<Viewer>> Viewer::make(gl::Device& device, LoadedSce
 
 core::Result<Viewer::Document> Viewer::documentOf(std::string path, scene::Scene scene) {
     Document document{
-        std::move(path), std::make_unique<scene::Scene>(std::move(scene)), nullptr, {}};
+        std::move(path), std::make_unique<scene::Scene>(std::move(scene)), nullptr, {}, true};
     auto renderer = scene::Renderer::make(*device_, *document.scene);
     if (!renderer) {
         return core::inFile(renderer.error(), document.path);
@@ -154,6 +158,10 @@ void Viewer::openScene(const std::string& path, std::optional<int> number) {
     if (*lighting) {
         core::Tally warnings = (*lighting)->warnings;
         applyMaterials((*lighting)->document, built, warnings);
+        if (auto added = addDocumentProbes(**lighting, built, warnings); !added) {
+            say(added.error().message(), true);
+            return;
+        }
         warn(warnings, (*lighting)->file);
     }
     auto document = documentOf(path, std::move(built));
@@ -223,6 +231,10 @@ core::Result<void> Viewer::drawFrame() {
     scene::RenderSettings settings = settings_;
     const bool coarse = moving() && fineMs_ > kSmoothMs && options_.samplesPerSide > 1;
     settings.samplesPerSide = coarse ? 1 : options_.samplesPerSide;
+    if (document_.firstFrame) { // what a scene opens with is whole
+        settings.faceBudget = std::max(settings.faceBudget, scene::RenderSettings().faceBudget);
+        document_.firstFrame = false;
+    }
     auto frame =
         document_.renderer->draw(view(), settings, static_cast<float>(std::exp2(exposure_)));
     if (!frame && framesDrawn_ == 0) {
@@ -253,6 +265,9 @@ void Viewer::note(const scene::Frame& frame, int samplesPerSide) {
                           frame.timesMs, frame.counters});
     }
     plan_ = frame.plan;
+    if (!plan_->probeFaces.empty() || !plan_->probeWork.empty()) {
+        framesWanted_ = std::max(framesWanted_, 1); // more may be due
+    }
     if (samplesPerSide == options_.samplesPerSide) {
         fineMs_ = ms;
     }
@@ -284,6 +299,29 @@ bool Viewer::onlyLights() const {
     return environment_.empty() && !lights_.empty();
 }
 
+/// What the last frame did for light probes, and what waits: not what was not called for.
+std::vector<std::string> Viewer::probeLines() const {
+    constexpr std::size_t kMost = 8;
+    std::vector<std::string> lines;
+    std::size_t left = 0;
+    for (const plan::Effect& effect : plan_ ? plan_->effects : std::vector<plan::Effect>()) {
+        if (effect.effect != "probe-capture") {
+            continue;
+        }
+        if (lines.size() == kMost) {
+            ++left;
+            continue;
+        }
+        lines.push_back("Probe '" + effect.subject +
+                        "': " + (effect.decision == plan::Decision::Run ? "" : "skipped: ") +
+                        effect.reason);
+    }
+    if (left > 0) {
+        lines.push_back(std::to_string(left) + " more probes");
+    }
+    return lines;
+}
+
 OverlayText Viewer::text() const {
     OverlayText text;
     text.help = help_;
@@ -301,8 +339,11 @@ OverlayText Viewer::text() const {
         "exposure  " + formatted("%+.2f EV", exposure_),
         animationText(),
         lights_.empty() ? "no hour: no lighting document" : hourText(),
-        timeText(),
-        "F1 help"};
+        timeText()};
+    for (std::string& line : probeLines()) {
+        text.lines.push_back(std::move(line));
+    }
+    text.lines.emplace_back("F1 help");
     text.message = message_;
     text.messageIsError = messageIsError_;
     return text;

@@ -66,6 +66,7 @@ private:
         std::unique_ptr<scene::Scene> scene;
         std::unique_ptr<scene::Renderer> renderer;
         scene::Bounds bounds;
+        bool firstFrame = true; ///< none has been drawn
     };
     struct DrawnFrame {
         double at = 0.0; ///< seconds since the viewer was made
@@ -113,6 +114,7 @@ private:
     void changed(bool measureAgain);
     void note(const scene::Frame& frame, int samplesPerSide);
     [[nodiscard]] std::string timeText() const;
+    [[nodiscard]] std::vector<std::string> probeLines() const;
 
     gl::Device* device_;
     ViewerOptions options_;

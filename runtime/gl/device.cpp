@@ -37,6 +37,7 @@ WorkCounters difference(const WorkCounters& later, const WorkCounters& earlier) 
     d.programSwitches = later.programSwitches - earlier.programSwitches;
     d.shaderCompilations = later.shaderCompilations - earlier.shaderCompilations;
     d.stateQueries = later.stateQueries - earlier.stateQueries;
+    d.probeFaces = later.probeFaces - earlier.probeFaces;
     d.glErrors = later.glErrors - earlier.glErrors;
     d.textureBytes = later.textureBytes;
     return d;

@@ -24,6 +24,7 @@ struct WorkCounters {
     std::uint64_t programSwitches = 0;
     std::uint64_t shaderCompilations = 0;
     std::uint64_t stateQueries = 0;
+    std::uint64_t probeFaces = 0;   ///< of light probes, drawn
     std::uint64_t textureBytes = 0; ///< alive now, not a total
     std::uint64_t glErrors = 0;     ///< debug messages of type error, where the driver has them
 

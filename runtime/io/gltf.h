@@ -208,6 +208,7 @@ struct GltfNode {
     int light = kNone;
     int skin = kNone;           ///< kNone unless the node has a mesh with joints
     std::vector<float> weights; ///< of its mesh's morph targets; empty: the mesh's own
+    std::uint32_t layers = 0xffffffffu; ///< `extras.lodestar.layers`: light probes that share a bit
 };
 
 /// EXT_lights_image_based. Its irradiance coefficients are not kept: irradiance is made from the

@@ -67,6 +67,21 @@ void readRotation(const std::vector<double>& values, GltfNode& node, core::Tally
                   static_cast<float>(values[1] / length), static_cast<float>(values[2] / length));
 }
 
+/// `extras.lodestar.layers`: the light probes that capture the node share a bit with it.
+std::uint32_t layersOf(const Json& json, core::Tally& warnings) {
+    constexpr std::uint32_t kAll = 0xffffffffu;
+    const Json* extras = member(json, "extras");
+    const Json* own =
+        extras == nullptr || !extras->is_object() ? nullptr : member(*extras, "lodestar");
+    const Json* layers = own == nullptr || !own->is_object() ? nullptr : member(*own, "layers");
+    if (layers == nullptr) {
+        return kAll;
+    }
+    const bool valid = layers->is_number_unsigned() && layers->get<std::uint64_t>() <= kAll;
+    warnings.add("node's layers are no 32-bit mask, taken as all", valid ? 0 : 1);
+    return valid ? static_cast<std::uint32_t>(layers->get<std::uint64_t>()) : kAll;
+}
+
 core::Result<GltfNode> readNode(GltfContext& context, std::size_t index) {
     const tinygltf::Node& source = context.model.nodes[index];
     const Json& json = context.document["nodes"][index];
@@ -77,6 +92,7 @@ core::Result<GltfNode> readNode(GltfContext& context, std::size_t index) {
     node.mesh = source.mesh;
     node.camera = source.camera;
     node.skin = source.skin;
+    node.layers = layersOf(json, warnings);
     for (std::size_t i = 0; i < memberSize(json, "weights"); ++i) {
         node.weights.push_back(json["weights"][i].get<float>());
     }

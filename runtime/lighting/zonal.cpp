@@ -87,6 +87,20 @@ ZonalRadiance zonalRadiance(const RadianceProfile& profile, const Zones& zones) 
     return {zones, ringMeans(profile, zoneEdges(zones))};
 }
 
+glm::dvec3 facingIrradiance(const ZonalRadiance& radiance) {
+    const std::vector<double> edges = zoneEdges(radiance.zones);
+    // The cosine's integral over a ring is pi times sin^2 of its edges, to the horizon.
+    const auto within = [](double angle) {
+        const double sine = std::sin(std::min(angle, std::numbers::pi / 2.0));
+        return sine * sine;
+    };
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < radiance.means.size(); ++i) {
+        sum += radiance.means[i] * (within(edges[i + 1]) - within(edges[i]));
+    }
+    return sum;
+}
+
 glm::dvec3 sphereMean(const ZonalRadiance& radiance) {
     const std::vector<double> edges = zoneEdges(radiance.zones);
     glm::dvec3 sum(0.0);

@@ -50,6 +50,9 @@ struct ZonalRadiance {
 /// The means over zones, by ringMeans.
 [[nodiscard]] ZonalRadiance zonalRadiance(const RadianceProfile& profile, const Zones& zones);
 
+/// Irradiance over pi of a surface that faces the axis: 1 where the radiance is 1.
+[[nodiscard]] glm::dvec3 facingIrradiance(const ZonalRadiance& radiance);
+
 /// Mean radiance over the sphere: the zones' energy over 4 pi.
 [[nodiscard]] glm::dvec3 sphereMean(const ZonalRadiance& radiance);
 

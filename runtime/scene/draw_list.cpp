@@ -40,6 +40,17 @@ double sharpestLookup(const io::GltfMaterial& material, const RenderSettings& se
         shader::lodestar_lookupExponent(leastExponent(material, settings), 0.0f));
 }
 
+/// The Phong exponent of the bluntest lookup a material makes: seen from above.
+double bluntestLookup(const io::GltfMaterial& material, const RenderSettings& settings) {
+    const io::GltfTextureRef& texture = material.blinnPhong ? material.blinnPhong->exponentTexture
+                                                            : material.metallicRoughnessTexture;
+    if (!settings.materialOverride && texture.texture != io::kNone) {
+        return 0.0;
+    }
+    return static_cast<double>(
+        shader::lodestar_lookupExponent(leastExponent(material, settings), 1.0f));
+}
+
 /// Which of the two terms a material reflects anywhere on its surface.
 void setTerms(plan::DrawView& draw, const io::GltfMaterial& material,
               const RenderSettings& settings) {
@@ -62,6 +73,16 @@ void setTerms(plan::DrawView& draw, const io::GltfMaterial& material,
     draw.diffuse =
         draw.diffuse || (draw.glossy && settings.specular.kind == lighting::EstimatorKind::Tent &&
                          leastExponent(material, settings) < 1.0f);
+}
+
+/// Which share of the picture a box may cover: its sphere's square, 1 about the eye.
+float screenShare(const Bounds& bounds, const View& view) {
+    const glm::vec3 center(view.cameraFromWorld * glm::vec4(bounds.center(), 1.0f));
+    const float radius = bounds.radius();
+    const float depth = view.perspective ? std::max(-center.z, radius) : 1.0f;
+    const float x = radius * view.clipFromCamera[0][0] / depth;
+    const float y = radius * view.clipFromCamera[1][1] / depth;
+    return std::min(std::abs(x * y), 1.0f);
 }
 
 /// @param index of the item among all
@@ -95,11 +116,16 @@ plan::DrawView drawView(const Scene& scene, const DrawItem& item, std::size_t in
     draw.visible = mayBeSeen(bounds, clipFromWorld);
     draw.blended = plan::has(draw.features, Feature::AlphaBlend);
     draw.indexCount = static_cast<int>(primitive.indices.size());
+    draw.layers = node.layers;
     if (!bounds.empty()) {
+        draw.low = bounds.low;
+        draw.high = bounds.high;
+        draw.screenShare = screenShare(bounds, view);
         draw.distance = -glm::vec3(view.cameraFromWorld * glm::vec4(bounds.center(), 1.0f)).z;
     }
     setTerms(draw, materialOf(scene, primitive), settings);
     draw.sharpest = sharpestLookup(materialOf(scene, primitive), settings);
+    draw.bluntest = bluntestLookup(materialOf(scene, primitive), settings);
     draw.lit = !plan::has(draw.features, Feature::Unlit);
     draw.casts = primitive.topology == io::Topology::Triangles &&
                  !plan::has(draw.features, Feature::AlphaBlend);

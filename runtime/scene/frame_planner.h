@@ -22,6 +22,8 @@ public:
                        bool deforms);
     /// The input, whose parts beside the draws are the caller's to fill.
     [[nodiscard]] plan::PlanInput& input() { return input_; }
+    /// Whether the last description found nothing changed.
+    [[nodiscard]] bool drawsKept() const { return drawsKept_; }
     /// The plan of the input.
     [[nodiscard]] const std::shared_ptr<const plan::EffectPlan>& plan();
 

@@ -20,7 +20,7 @@ namespace lodestar::scene {
 /// One draw of a batch, as shaders/host/mesh.vert reads it.
 struct Instance {
     glm::vec4 rows[3]; ///< of worldFromModel, an affine matrix
-    glm::vec4 skin;    ///< x: first texel of its joints
+    glm::vec4 more;    ///< x: first texel of its joints; yzw: f0, f1 and open of its ProbeChoice
     bool operator==(const Instance&) const = default;
 };
 

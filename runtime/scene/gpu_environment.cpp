@@ -1,11 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "scene/gpu_environment.h"
 
+#include <algorithm>
+
+#include "lighting/mips.h"
 #include "scene/gpu_scene.h"
 
 namespace lodestar::scene {
 
 using lighting::EstimatorKind;
+
+GpuEnvironment::GpuEnvironment(std::string source, lighting::Cubemap base)
+    : source_(std::move(source)), base_(std::move(base)) {
+    if (!base_.empty()) {
+        mean_ = glm::dvec3(lighting::sphereMean(base_, 0));
+        for (const glm::vec4& texel : base_.level(0)) {
+            brightest_ =
+                std::max(brightest_, static_cast<double>(std::max({texel.r, texel.g, texel.b})));
+        }
+    }
+}
 
 plan::EnvironmentView GpuEnvironment::view() const {
     return {source_, base_.width(), prepared_ == lighting::PreparedParts{}, !empty(), {}};

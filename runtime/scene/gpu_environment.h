@@ -15,13 +15,15 @@ namespace lodestar::scene {
 class GpuEnvironment {
 public:
     GpuEnvironment() = default;
-    GpuEnvironment(std::string source, lighting::Cubemap base)
-        : source_(std::move(source)), base_(std::move(base)) {}
+    GpuEnvironment(std::string source, lighting::Cubemap base);
 
     [[nodiscard]] bool empty() const { return base_.empty(); }
     /// What the planner is told of it.
     [[nodiscard]] plan::EnvironmentView view() const;
     [[nodiscard]] const lighting::PreparedParts& prepared() const { return prepared_; }
+    /// Mean radiance over the sphere, and the greatest.
+    [[nodiscard]] const glm::dvec3& mean() const { return mean_; }
+    [[nodiscard]] double brightest() const { return brightest_; }
 
     /// Makes and uploads parts. @errors NoOpenGl if the driver has no memory for one
     [[nodiscard]] core::Result<void> prepare(gl::Device& device,
@@ -38,6 +40,8 @@ private:
 
     std::string source_;
     lighting::Cubemap base_;
+    glm::dvec3 mean_{0.0};
+    double brightest_ = 0.0;
     lighting::PreparedParts prepared_;
     lighting::Sh9Coefficients sh9_{};
     gl::Texture tentMips_, boxMips_, irradiance_;

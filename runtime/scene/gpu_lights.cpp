@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/gpu_lights.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/contract.h"
@@ -149,7 +150,43 @@ void GpuLights::describe(const plan::EffectPlan& plan, blocks::LodestarRsrmLight
         block.rsrmAxis[i] = glm::vec4(light.moment.axis, static_cast<float>(lit.light));
         block.rsrmShadow[i].x = static_cast<float>(lit.shadow);
         block.rsrmScale[i].x = light.scale;
+        block.rsrmScale[i].y = isSky(lit.light) ? 1.0f : 0.0f;
     }
+}
+
+glm::dvec3 GpuLights::facingIrradiance(std::size_t index) {
+    Light& light = lights_[index];
+    const lighting::DayLight& day = light.map.day();
+    for (std::size_t key = light.facing.size(); key < day.keys.size(); ++key) {
+        light.facing.push_back(lighting::facingIrradiance(
+            lighting::keyRadiance(day, key, lighting::zonesFor(day.kind))));
+    }
+    const auto content = lighting::LightMap::contentOf(light.moment);
+    return content.factor *
+           ((1.0 - content.t) * light.facing[content.from] + content.t * light.facing[content.to]);
+}
+
+bool GpuLights::isSky(std::size_t light) const {
+    return lights_[light].map.day().kind == lighting::LightKind::Sky;
+}
+
+lighting::LightMap::Content GpuLights::content(std::size_t light) const {
+    return lighting::LightMap::contentOf(lights_[light].moment);
+}
+
+double GpuLights::brightest() const {
+    double sum = 0.0;
+    for (const Light& light : lights_) {
+        double most = 0.0;
+        for (std::size_t key = 0; key < light.map.day().keys.size(); ++key) {
+            for (const glm::vec3& radiance : lighting::keyGradient(light.map.day(), key)) {
+                most = std::max({most, static_cast<double>(radiance.r),
+                                 static_cast<double>(radiance.g), static_cast<double>(radiance.b)});
+            }
+        }
+        sum += most;
+    }
+    return sum;
 }
 
 void GpuLights::bind() const {

@@ -49,6 +49,15 @@ public:
     void describe(const plan::EffectPlan& plan, blocks::LodestarRsrmLights& block) const;
     /// The axis of a light at the hour last described, unit.
     [[nodiscard]] glm::dvec3 axis(std::size_t light) const { return lights_[light].moment.axis; }
+    /// Irradiance over pi about the axis of a light at the hour last described, were nothing in the
+    /// way.
+    [[nodiscard]] glm::dvec3 facingIrradiance(std::size_t light);
+    /// Whether a light is a sky; what of it a blend depends on.
+    [[nodiscard]] bool isSky(std::size_t light) const;
+    [[nodiscard]] lighting::LightMap::Content content(std::size_t light) const;
+    [[nodiscard]] std::size_t count() const { return lights_.size(); }
+    /// The greatest sum over lights of radiance that any of their keys has.
+    [[nodiscard]] double brightest() const;
     void bind() const;
 
 private:
@@ -57,7 +66,8 @@ private:
         int shadow = -1; ///< its layer of the shadow maps
         lighting::DayMoment moment{};
         std::optional<lighting::LightMap::Content> uploaded{};
-        float scale = 1.0f; ///< of the uploaded map
+        float scale = 1.0f;               ///< of the uploaded map
+        std::vector<glm::dvec3> facing{}; ///< facingIrradiance of its keys, made when asked for
     };
 
     [[nodiscard]] core::Result<void> allocate(gl::Device& device);

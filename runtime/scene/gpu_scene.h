@@ -35,10 +35,13 @@ enum TextureUnit : int {
     kRsrmGradientUnit,
     kShadowUnit,
     kInstanceUnit,
+    kFirstProbeUnit,
+    kSecondProbeUnit,
+    kProbeIrradianceUnit,
 };
 
 /// The names of the samplers, by unit.
-inline constexpr std::array<const char*, 16> kSamplerNames = {
+inline constexpr std::array<const char*, 19> kSamplerNames = {
     "uBaseColorTexture", "uMetallicRoughnessTexture",
     "uNormalTexture",    "uOcclusionTexture",
     "uEmissiveTexture",  "uExponentTexture",
@@ -46,7 +49,9 @@ inline constexpr std::array<const char*, 16> kSamplerNames = {
     "uEnvironment",      "uIrradiance",
     "uJoints",           "uRsrmMaps",
     "uRsrmLamberts",     "uRsrmGradients",
-    "uShadows",          "uInstances"};
+    "uShadows",          "uInstances",
+    "uFirstProbe",       "uSecondProbe",
+    "uProbeIrradiance"};
 
 class GpuScene {
 public:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/programs.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -80,6 +81,9 @@ gl::Defines definesFor(plan::Features features, const plan::EffectPlan& plan,
     for (const auto& [name, feature] : macros) {
         defines.emplace_back(name, plan::has(features, feature) ? "1" : "0");
     }
+    defines.emplace_back("LODESTAR_PROBES", plan::has(features, Feature::SecondProbe) ? "2"
+                                            : plan::has(features, Feature::Probe)     ? "1"
+                                                                                      : "0");
     defines.emplace_back("LODESTAR_SPECULAR",
                          std::to_string(specularMacro(settings.specular.kind)));
     defines.emplace_back("LODESTAR_DIFFUSE", std::to_string(diffuseMacro(settings.diffuse.kind)));
@@ -100,9 +104,10 @@ plan::Features depthFeatures(plan::Features features) {
     return features & kept;
 }
 
-gl::Defines backdropDefines(const plan::EffectPlan& plan) {
-    gl::Defines defines = lightDefines(plan.backdropFeatures, plan);
-    const bool cube = plan::has(plan.backdropFeatures, plan::Feature::Environment);
+/// @param features which of the environment and the lights are behind everything
+gl::Defines skyDefines(plan::Features features, const plan::EffectPlan& plan) {
+    gl::Defines defines = lightDefines(features, plan);
+    const bool cube = plan::has(features, plan::Feature::Environment);
     defines.emplace_back("LODESTAR_ENVIRONMENT", cube ? "1" : "0");
     return defines;
 }
@@ -124,6 +129,8 @@ core::Result<void> Programs::add(Variants& variants, const char* vertexFile,
     made->setBlock("LodestarFrame", kFrameBinding);
     made->setBlock("LodestarMaterial", kMaterialBinding);
     made->setBlock("LodestarRsrmLights", kRsrmBinding);
+    made->setBlock("LodestarProbe[0]", kFirstProbeBinding);
+    made->setBlock("LodestarProbe[1]", kSecondProbeBinding);
     const int firstInstance = made->uniform("uFirstInstance");
     variants.emplace(defines, MeshProgram{std::move(*made), firstInstance});
     return {};
@@ -131,12 +138,22 @@ core::Result<void> Programs::add(Variants& variants, const char* vertexFile,
 
 core::Result<void> Programs::compile(const plan::PlanInput& input, const plan::EffectPlan& plan,
                                      const RenderSettings& settings) {
-    for (const plan::Features features : plan.drawFeatures) {
-        if (auto made = add(meshes_, "host/mesh.vert", "host/mesh.frag",
-                            definesFor(features, plan, settings));
-            !made) {
-            return made;
+    const auto addMeshes = [&](const std::vector<plan::Features>& wanted) -> core::Result<void> {
+        for (const plan::Features features : wanted) {
+            if (auto made = add(meshes_, "host/mesh.vert", "host/mesh.frag",
+                                definesFor(features, plan, settings));
+                !made) {
+                return made;
+            }
         }
+        return {};
+    };
+    auto meshes = addMeshes(plan.drawFeatures);
+    for (std::size_t i = 0; meshes && i < plan.probeFaces.size(); ++i) {
+        meshes = addMeshes(plan.probeFaces[i].drawFeatures);
+    }
+    if (!meshes) {
+        return meshes;
     }
     for (const std::size_t caster : plan.casters) {
         const plan::Features features = depthFeatures(input.draws[caster].features);
@@ -146,8 +163,18 @@ core::Result<void> Programs::compile(const plan::PlanInput& input, const plan::E
             return made;
         }
     }
+    const bool composes = std::any_of(plan.probeWork.begin(), plan.probeWork.end(),
+                                      [](const plan::ProbeWork& work) { return work.compose; });
+    if (composes) {
+        if (auto made = add(compositions_, "host/present.vert", "host/probe_compose.frag",
+                            skyDefines(plan.skyFeatures, plan));
+            !made) {
+            return made;
+        }
+    }
     if (plan.backdrop) {
-        return add(backdrops_, "host/backdrop.vert", "host/backdrop.frag", backdropDefines(plan));
+        return add(backdrops_, "host/backdrop.vert", "host/backdrop.frag",
+                   skyDefines(plan.backdropFeatures, plan));
     }
     return {};
 }
@@ -163,7 +190,11 @@ const MeshProgram& Programs::depth(plan::Features features, const plan::EffectPl
 }
 
 const gl::Program& Programs::backdrop(const plan::EffectPlan& plan) const {
-    return backdrops_.at(backdropDefines(plan)).program;
+    return backdrops_.at(skyDefines(plan.backdropFeatures, plan)).program;
+}
+
+const gl::Program& Programs::composition(const plan::EffectPlan& plan) const {
+    return compositions_.at(skyDefines(plan.skyFeatures, plan)).program;
 }
 
 } // namespace lodestar::scene

@@ -12,7 +12,13 @@
 namespace lodestar::scene {
 
 /// Binding points of the uniform blocks, shared by all programs.
-enum BlockBinding : unsigned { kFrameBinding, kMaterialBinding, kRsrmBinding };
+enum BlockBinding : unsigned {
+    kFrameBinding,
+    kMaterialBinding,
+    kRsrmBinding,
+    kFirstProbeBinding,
+    kSecondProbeBinding
+};
 
 /// A program and where it takes the place of a batch's first instance, -1 where it has none.
 struct MeshProgram {
@@ -35,6 +41,8 @@ public:
     [[nodiscard]] const MeshProgram& mesh(plan::Features features, const plan::EffectPlan& plan,
                                           const RenderSettings& settings) const;
     [[nodiscard]] const gl::Program& backdrop(const plan::EffectPlan& plan) const;
+    /// Composes what stands behind a probe's captured geometry.
+    [[nodiscard]] const gl::Program& composition(const plan::EffectPlan& plan) const;
     /// Depth alone, of a caster with these features.
     [[nodiscard]] const MeshProgram& depth(plan::Features features, const plan::EffectPlan& plan,
                                            const RenderSettings& settings) const;
@@ -45,7 +53,7 @@ private:
                                          const char* fragmentFile, const gl::Defines& defines);
 
     gl::Device* device_;
-    Variants meshes_, depths_, backdrops_;
+    Variants meshes_, depths_, backdrops_, compositions_;
 };
 
 } // namespace lodestar::scene

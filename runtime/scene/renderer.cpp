@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
-#include <span>
+#include <limits>
 
 #include <epoxy/gl.h>
 #include <glm/gtc/matrix_inverse.hpp>
@@ -14,13 +14,15 @@
 #include "scene/draw_list.h"
 #include "scene/frame_parts.h"
 #include "scene/frame_planner.h"
-#include "scene/gpu_batches.h"
 #include "scene/gpu_deformation.h"
 #include "scene/gpu_environment.h"
 #include "scene/gpu_lights.h"
+#include "scene/gpu_probes.h"
 #include "scene/gpu_scene.h"
+#include "scene/light_state.h"
 #include "scene/presenter.h"
-#include "scene/programs.h"
+#include "scene/probe_observer.h"
+#include "scene/scene_drawer.h"
 #include "scene/shadow_maps.h"
 #include "scene/uniform_block.h"
 
@@ -38,40 +40,28 @@ double millisecondsSince(Clock::time_point start) {
 
 } // namespace
 
-/// What the batches of a pass have set so far.
-struct PassState {
-    const MeshProgram* program = nullptr;
-    plan::Features features = 0;
-    const io::GltfMaterial* material = nullptr;
-    const gl::VertexArray* vertices = nullptr;
-    std::optional<bool> twoSided, mirrored;
-};
-
 struct Renderer::State {
     State(gl::Device& glDevice, const Scene& drawn, GpuScene uploaded, GpuDeformation deformed)
-        : device(glDevice), scene(drawn), gpu(std::move(uploaded)), items(drawItems(drawn)),
-          deformation(std::move(deformed)), fullScreen(glDevice), timer(glDevice),
-          frameBlock(glDevice), lightBlock(glDevice), programs(glDevice) {}
+        : device(glDevice), scene(drawn),
+          drawer(glDevice, drawn, std::move(uploaded), std::move(deformed)), timer(glDevice),
+          frameBlock(glDevice), lightBlock(glDevice), observer(drawn) {}
 
     gl::Device& device;
     const Scene& scene;
-    GpuScene gpu;
-    std::vector<DrawItem> items;
-    GpuDeformation deformation;
-    gl::VertexArray fullScreen;
+    SceneDrawer drawer;
     gl::Timer timer;
     UniformBlock<blocks::LodestarFrame> frameBlock;
     UniformBlock<blocks::LodestarRsrmLights> lightBlock;
-    GpuInstances instances;
-    GpuMaterials materials;
     gl::Framebuffer target;
-    Programs programs;
     FramePlanner planner;
     std::optional<Presenter> presenter;
 
     GpuEnvironment environment;
     GpuLights lights;
     ShadowMaps shadows;
+    ProbeObserver observer;
+    GpuProbes probes;
+    core::Tally probeWarnings;
 
     /// What becomes of a tile that `target` holds: x, y, width, height in pixels from the top left.
     using TileSink = std::function<void(const glm::ivec4&)>;
@@ -86,120 +76,12 @@ struct Renderer::State {
                                                                     const RenderSettings& settings);
     core::Result<void> drawShadows(const plan::EffectPlan& plan, const RenderSettings& settings,
                                    const plan::PlanInput& input);
-    void drawBackdrop(const plan::EffectPlan& plan);
-    void placeInstances(const plan::EffectPlan& plan);
-    void use(const MeshProgram& program, const plan::Batch& batch, std::size_t before);
-    void drawBatch(const plan::Batch& batch, const plan::EffectPlan& plan,
-                   const RenderSettings& settings, PassState& state);
-    void drawCasters(const plan::EffectPlan& plan, const RenderSettings& settings,
-                     const plan::PlanInput& input);
-    void drawInstances(std::size_t index, const plan::Batch& batch, PassState& state);
+    void bindLight(const RenderSettings& settings, const blocks::LodestarFrame& block);
+    core::Result<void> drawProbes(const plan::EffectPlan& plan, const RenderSettings& settings,
+                                  const plan::PlanInput& input);
+    [[nodiscard]] blocks::LodestarFrame frameBlockFor(const RenderSettings& settings,
+                                                      const glm::vec4& camera) const;
 };
-
-void Renderer::State::drawBackdrop(const plan::EffectPlan& plan) {
-    programs.backdrop(plan).use();
-    fullScreen.bind();
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_BLEND);
-    glDepthMask(GL_FALSE);
-    gl::drawFullScreen(device);
-    glDepthMask(GL_TRUE);
-}
-
-/// Where the instances of all batches stand: those of the picture, then the casters.
-void Renderer::State::placeInstances(const plan::EffectPlan& plan) {
-    std::vector<Instance> placed;
-    placed.reserve(plan.drawOrder.size() + plan.casters.size());
-    for (const std::vector<std::size_t>* order : {&plan.drawOrder, &plan.casters}) {
-        for (const std::size_t index : *order) {
-            const DrawItem& item = items[index];
-            const Node& node = scene.nodes[static_cast<std::size_t>(item.node)];
-            const glm::mat4 rows = glm::transpose(node.worldFromNode);
-            const int skin =
-                std::get<MeshComponent>(node.components[static_cast<std::size_t>(item.component)])
-                    .skin;
-            placed.push_back(
-                {{rows[0], rows[1], rows[2]}, {deformation.firstTexel(skin), 0.0f, 0.0f, 0.0f}});
-        }
-    }
-    instances.upload(device, placed);
-}
-
-/// @param before instances that stand before the order's first
-void Renderer::State::use(const MeshProgram& program, const plan::Batch& batch,
-                          std::size_t before) {
-    program.program.use();
-    glUniform1i(program.firstInstance, static_cast<int>(instances.bind(before + batch.first)));
-}
-
-/// @param index of the batch's first draw
-void Renderer::State::drawInstances(std::size_t index, const plan::Batch& batch, PassState& state) {
-    const DrawItem& item = items[index];
-    const GpuPrimitive& part = gpu.geometry().primitive(item.mesh, item.primitive);
-    const gl::VertexArray* morphed = deformation.vertices(index);
-    const gl::VertexArray* vertices =
-        morphed != nullptr ? morphed : &gpu.geometry().pool(part).vertices;
-    if (state.vertices != vertices) {
-        vertices->bind();
-        state.vertices = vertices;
-    }
-    gl::IndexRange indices = part.indices;
-    indices.baseVertex = morphed != nullptr ? 0 : indices.baseVertex;
-    gl::drawIndexed(device, part.mode, indices, static_cast<int>(batch.count));
-}
-
-void Renderer::State::drawBatch(const plan::Batch& batch, const plan::EffectPlan& plan,
-                                const RenderSettings& settings, PassState& state) {
-    const std::size_t index = plan.drawOrder[batch.first];
-    const DrawItem& item = items[index];
-    const io::GltfPrimitive& primitive = scene.meshes[static_cast<std::size_t>(item.mesh)]
-                                             .primitives[static_cast<std::size_t>(item.primitive)];
-    const io::GltfMaterial& material = materialOf(scene, primitive);
-    const plan::Features features = plan.drawFeatures[batch.first];
-    if (state.program == nullptr || state.features != features) {
-        state.program = &programs.mesh(features, plan, settings);
-        state.features = features;
-        const bool blended = plan::has(features, plan::Feature::AlphaBlend);
-        blended ? glEnable(GL_BLEND) : glDisable(GL_BLEND);
-        glDepthMask(blended ? GL_FALSE : GL_TRUE);
-    }
-    use(*state.program, batch, 0);
-    if (state.material != &material) {
-        state.material = &material;
-        materials.bind(primitive.material);
-        gpu.bindTextures(material);
-    }
-    const bool twoSided = material.doubleSided || primitive.topology != io::Topology::Triangles;
-    if (state.twoSided != twoSided) {
-        state.twoSided = twoSided;
-        twoSided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
-    }
-    if (state.mirrored != batch.mirrored) {
-        state.mirrored = batch.mirrored;
-        glFrontFace(batch.mirrored ? GL_CW : GL_CCW);
-    }
-    drawInstances(index, batch, state);
-}
-
-void Renderer::State::drawCasters(const plan::EffectPlan& plan, const RenderSettings& settings,
-                                  const plan::PlanInput& input) {
-    PassState state;
-    for (const plan::Batch& batch : plan.casterBatches) {
-        const std::size_t index = plan.casters[batch.first];
-        const plan::Features features = input.draws[index].features;
-        if (state.program == nullptr || state.features != features) {
-            state.program = &programs.depth(features, plan, settings);
-            state.features = features;
-        }
-        use(*state.program, batch, plan.drawOrder.size());
-        if (plan::has(features, plan::Feature::AlphaMask)) {
-            const int material = static_cast<int>(input.draws[index].material) - 1;
-            materials.bind(material);
-            gpu.bindTextures(scene.materials[static_cast<std::size_t>(material)]);
-        }
-        drawInstances(index, batch, state);
-    }
-}
 
 /// The maps that the plan draws, and the block that says how all are read.
 core::Result<void> Renderer::State::drawShadows(const plan::EffectPlan& plan,
@@ -229,9 +111,8 @@ core::Result<void> Renderer::State::drawShadows(const plan::EffectPlan& plan,
         block.clipFromWorld = shadows.view(lit.shadow).clipFromWorld;
         frameBlock.set(block);
         frameBlock.bind(kFrameBinding);
-        deformation.bind();
-        instances.forgetBound();
-        drawCasters(plan, settings, input);
+        drawer.begin();
+        drawer.drawCasters(plan, input, settings);
         glDisable(GL_POLYGON_OFFSET_FILL);
     }
     blocks::LodestarRsrmLights block{};
@@ -241,9 +122,9 @@ core::Result<void> Renderer::State::drawShadows(const plan::EffectPlan& plan,
     return {};
 }
 
-void Renderer::State::drawTile(const plan::EffectPlan& plan, const RenderSettings& settings,
-                               const blocks::LodestarFrame& block) {
-    target.begin();
+/// What all passes that shade read and set.
+void Renderer::State::bindLight(const RenderSettings& settings,
+                                const blocks::LodestarFrame& block) {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
     glCullFace(GL_BACK);
@@ -257,22 +138,57 @@ void Renderer::State::drawTile(const plan::EffectPlan& plan, const RenderSetting
     lights.bind();
     shadows.bind();
     lightBlock.bind(kRsrmBinding);
-    deformation.bind();
-    instances.forgetBound();
-    bool backdropDrawn = !plan.backdrop;
-    PassState state;
-    for (const plan::Batch& batch : plan.batches) {
-        if (!backdropDrawn &&
-            plan::has(plan.drawFeatures[batch.first], plan::Feature::AlphaBlend)) {
-            drawBackdrop(plan);
-            backdropDrawn = true;
-            state = {};
-        }
-        drawBatch(batch, plan, settings, state);
+    drawer.begin();
+}
+
+void Renderer::State::drawTile(const plan::EffectPlan& plan, const RenderSettings& settings,
+                               const blocks::LodestarFrame& block) {
+    target.begin();
+    bindLight(settings, block);
+    drawer.drawPicture(plan, settings, probes);
+}
+
+blocks::LodestarFrame Renderer::State::frameBlockFor(const RenderSettings& settings,
+                                                     const glm::vec4& camera) const {
+    blocks::LodestarFrame block{};
+    block.cameraPosition = camera;
+    block.written = {1.0f, std::numeric_limits<float>::max(), 0.0f, 0.0f};
+    environment.describe(settings, block);
+    setPunctualLights(scene, block);
+    return block;
+}
+
+/// The faces that the plan draws, and what it makes of them.
+core::Result<void> Renderer::State::drawProbes(const plan::EffectPlan& plan,
+                                               const RenderSettings& settings,
+                                               const plan::PlanInput& input) {
+    if (observer.empty()) {
+        return {};
     }
-    if (!backdropDrawn) {
-        drawBackdrop(plan);
+    if (auto made = probes.prepare(device, observer, plan, probeWarnings); !made) {
+        return made;
     }
+    probes.describe(device, observer, input);
+    constexpr float kGreatestHalf = 65504.0f;
+    for (std::size_t i = 0; i < plan.probeFaces.size(); ++i) {
+        const plan::ProbeFace& face = plan.probeFaces[i];
+        const FaceView view = faceView(input.probes[face.probe], face.face);
+        blocks::LodestarFrame block = frameBlockFor(settings, glm::vec4(view.position, 1.0f));
+        block.written = {probes.written(), kGreatestHalf, 0.0f, 0.0f};
+        block.clipFromWorld = view.clipFromWorld;
+        probes.beginFace(face);
+        bindLight(settings, block);
+        drawer.drawFace(plan, i, settings, probes);
+        probes.endFace(face);
+    }
+    if (!plan.probeWork.empty()) {
+        blocks::LodestarFrame block = frameBlockFor(settings, glm::vec4(0.0f));
+        block.written = {probes.written(), kGreatestHalf, 0.0f, 0.0f};
+        bindLight(settings, block);
+        probes.work(plan, drawer.programs(), observer);
+        probes.describe(device, observer, input); // levels have been made
+    }
+    return {};
 }
 
 Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -294,16 +210,22 @@ core::Result<std::unique_ptr<Renderer>> Renderer::make(gl::Device& device, const
 
 void Renderer::setEnvironment(std::string source, lighting::Cubemap base) {
     state_->environment = GpuEnvironment(std::move(source), std::move(base));
+    state_->probes.setWritten(writtenFactor(state_->scene, state_->environment, state_->lights));
 }
 
 void Renderer::setLights(std::vector<lighting::DayLight> lights,
                          const lighting::RsrmLayout& layout) {
     state_->lights = GpuLights(std::move(lights), layout, state_->lights.kernels());
     state_->shadows = {};
+    state_->probes.setWritten(writtenFactor(state_->scene, state_->environment, state_->lights));
 }
 
 const core::Tally& Renderer::lightWarnings() const {
     return state_->lights.warnings();
+}
+
+const core::Tally& Renderer::probeWarnings() const {
+    return state_->probeWarnings;
 }
 
 namespace {
@@ -339,28 +261,36 @@ plan::PlanInput planInput(const Scene& scene, const View& view, const RenderSett
     plan::PlanInput input =
         planInput(scene, view, settings, beside(std::move(environment), described));
     describeLights(scene, drawItems(scene), settings.hour, described, shadows, input);
+    input.faceBudget = settings.faceBudget;
+    if (ProbeObserver observer(scene); !observer.empty()) {
+        observer.describe({}, false, settings.lightThreshold, input);
+    }
     return input;
 }
 
 std::shared_ptr<const plan::EffectPlan> Renderer::State::planFrame(const View& view,
                                                                    const RenderSettings& settings) {
+    GpuDeformation& deformation = drawer.deformation();
     planner.describeDraws(scene, view, settings, deformation.deforms());
     plan::PlanInput& input = planner.input();
     input.environment = beside(environment.view(), lights);
     input.alreadyPrepared = environment.prepared();
     input.instancesPerPage = GpuInstances::pageSize(device);
-    deformation.describe(scene, items, input);
-    describeLights(scene, items, settings.hour, lights, shadows, input);
+    deformation.describe(scene, drawer.items(), input);
+    describeLights(scene, drawer.items(), settings.hour, lights, shadows, input);
+    input.faceBudget = settings.faceBudget;
+    if (!observer.empty()) {
+        observer.describe(lightState(environment, lights), planner.drawsKept(),
+                          settings.lightThreshold, input);
+    }
     return planner.plan();
 }
 
 core::Result<void> Renderer::State::drawPicture(const View& view, const RenderSettings& settings,
                                                 Frame& frame, const TileSink& sink) {
-    blocks::LodestarFrame block{};
-    block.cameraPosition =
-        view.perspective ? glm::vec4(view.position, 1.0f) : glm::vec4(view.towardsViewer, 0.0f);
-    environment.describe(settings, block);
-    setPunctualLights(scene, block);
+    blocks::LodestarFrame block =
+        frameBlockFor(settings, view.perspective ? glm::vec4(view.position, 1.0f)
+                                                 : glm::vec4(view.towardsViewer, 0.0f));
     const int side = std::max(1, kTileSide / settings.samplesPerSide);
     for (int y = 0; y < settings.height; y += side) {
         for (int x = 0; x < settings.width; x += side) {
@@ -406,16 +336,14 @@ core::Result<Frame> Renderer::State::drawFrame(const View& view, const RenderSet
     const plan::EffectPlan& plan = *frame.plan;
     const plan::PlanInput& input = planner.input();
     auto prepared = timed("prepare", [&] {
-        deformation.prepare(device, scene, items, gpu, plan);
-        materials.prepare(device, scene, settings.materialOverride);
-        placeInstances(plan);
+        drawer.prepare(plan, settings);
         auto made = environment.prepare(device, plan.prepare);
         return made ? lights.prepare(device, plan) : made;
     });
     if (!prepared) {
         return prepared.error();
     }
-    auto compiled = timed("compile", [&] { return programs.compile(input, plan, settings); });
+    auto compiled = timed("compile", [&] { return drawer.compile(input, plan, settings); });
     if (!compiled) {
         return compiled.error();
     }
@@ -423,8 +351,15 @@ core::Result<Frame> Renderer::State::drawFrame(const View& view, const RenderSet
     if (!shadowed) {
         return shadowed.error();
     }
+    auto captured = timed("probes", [&] { return drawProbes(plan, settings, input); });
+    if (!captured) {
+        return captured.error();
+    }
     if (auto drawn = drawPicture(view, settings, frame, sinkFor(frame)); !drawn) {
         return drawn.error();
+    }
+    if (!observer.empty()) {
+        observer.executed(plan);
     }
     frame.counters = gl::difference(device.counters(), before);
     return frame;

@@ -41,6 +41,9 @@ struct RenderSettings {
     double hour = 15.0;   ///< local solar time of the lights; finite, wrapped into [0, 24)
     bool seamless = true; ///< false filters each cube face on its own, for comparison only
     std::optional<MaterialOverride> materialOverride;
+    int faceBudget = 1000000; ///< faces of light probes that a frame draws, at most
+    /// Light probes capture again where bounced light may have changed by more than that share.
+    double lightThreshold = 0.1;
     bool operator==(const RenderSettings&) const = default;
 };
 
@@ -84,6 +87,9 @@ public:
                    const lighting::RsrmLayout& layout = lighting::kRsrm);
     /// Counts of lights and shadows beyond what a frame holds.
     [[nodiscard]] const core::Tally& lightWarnings() const;
+
+    /// Counts of light probes that got less than they asked for.
+    [[nodiscard]] const core::Tally& probeWarnings() const;
 
     /// @errors NoOpenGl, Internal (a shader that the driver refuses)
     [[nodiscard]] core::Result<Frame> render(const View& view, const RenderSettings& settings);

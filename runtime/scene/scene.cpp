@@ -53,8 +53,8 @@ std::vector<int> rootsOfJoints(const io::GltfFile& file, const std::vector<int>&
 /// @param shown false leaves the components out: a node that only moves others
 Node makeNode(const io::GltfFile& file, const io::GltfNode& source, int parent, bool shown) {
     const std::optional<Trs> rest = restOf(source);
-    Node node{source.name,     parent, rest ? rest->matrix() : source.matrix,
-              glm::mat4(1.0f), {},     rest};
+    Node node{source.name, parent,       rest ? rest->matrix() : source.matrix, glm::mat4(1.0f), {},
+              rest,        source.layers};
     if (!shown) {
         return node;
     }

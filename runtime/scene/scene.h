@@ -3,6 +3,8 @@
 // The scene graph: nodes with components. Values only; the renderer keeps what belongs to GL.
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -13,6 +15,8 @@
 
 #include "core/result.h"
 #include "io/gltf.h"
+#include "lighting/cubemap.h"
+#include "lighting/probe.h"
 
 namespace lodestar::scene {
 
@@ -32,7 +36,13 @@ struct LightComponent {
     io::GltfLight light;
 };
 
-using Component = std::variant<MeshComponent, CameraComponent, LightComponent>;
+/// A light probe in the node's frame.
+struct ProbeComponent {
+    lighting::Probe probe;
+    std::shared_ptr<const lighting::Cubemap> map; ///< a file's light, level 0; null: it is captured
+};
+
+using Component = std::variant<MeshComponent, CameraComponent, LightComponent, ProbeComponent>;
 
 /// Translation, rotation and scale of a node in its parent.
 struct Trs {
@@ -50,7 +60,8 @@ struct Node {
     glm::mat4 parentFromNode{1.0f};
     glm::mat4 worldFromNode{1.0f}; ///< set by updateTransforms
     std::vector<Component> components;
-    std::optional<Trs> rest{}; ///< as in the file; absent where that gives a matrix
+    std::optional<Trs> rest{};          ///< as in the file; absent where that gives a matrix
+    std::uint32_t layers = 0xffffffffu; ///< light probes that share a bit with it capture it
 };
 
 /// Axis-aligned box; empty while low > high.

@@ -10,12 +10,14 @@
 #include <glm/vec4.hpp>
 #define LODESTAR_BLOCK(name) struct name {
 #define LODESTAR_BLOCK_END(name) };
+#define LODESTAR_BLOCK_ARRAY_END(name, instances, count) };
 namespace lodestar::scene::blocks {
 using glm::mat4;
 using glm::vec4;
 #else
 #define LODESTAR_BLOCK(name) layout(std140) uniform name {
 #define LODESTAR_BLOCK_END(name) };
+#define LODESTAR_BLOCK_ARRAY_END(name, instances, count) } instances[count];
 #endif
 
 #define LODESTAR_MAX_LIGHTS 16
@@ -39,6 +41,7 @@ LODESTAR_BLOCK(LodestarFrame)
     vec4 environmentCube;   ///< face width, last level, least level (bias), radiance scale
     vec4 irradianceCube;    ///< face width, last level, least level (bias), radiance scale
     vec4 sh9[9];            ///< irradiance over pi
+    vec4 written;           ///< x: factor on radiance as it is written; y: greatest value written
     vec4 lightCount;        ///< x: how many of the lights are used
     vec4 lightPosition[LODESTAR_MAX_LIGHTS];  ///< xyz position, w 1; or direction to the light, w 0
     vec4 lightColor[LODESTAR_MAX_LIGHTS];     ///< rgb irradiance or radiant intensity, w 1/range^2
@@ -52,7 +55,7 @@ LODESTAR_BLOCK(LodestarRsrmLights)
     vec4 rsrmRows; ///< first octave, rows an octave; texture coordinate of Lambert's u: z u + w
     vec4 rsrmAxis[LODESTAR_MAX_RSRM_LIGHTS]; ///< xyz unit, w layer of its maps; casters of shadows first
     vec4 rsrmShadow[LODESTAR_MAX_RSRM_LIGHTS]; ///< x: layer of its shadow map
-    vec4 rsrmScale[LODESTAR_MAX_RSRM_LIGHTS];  ///< x: scale of its map
+    vec4 rsrmScale[LODESTAR_MAX_RSRM_LIGHTS];  ///< x: scale of its map; y: 1 for a sky, 0 for a sun
     mat4 shadowFromWorld[LODESTAR_MAX_SHADOWS]; ///< to a layer's texture coordinates and depth
     vec4 shadowTexel[LODESTAR_MAX_SHADOWS];     ///< x: metres of one of its texels
 LODESTAR_BLOCK_END(LodestarRsrmLights)
@@ -70,10 +73,24 @@ LODESTAR_BLOCK(LodestarMaterial)
     vec4 uvRows[2 * LODESTAR_MATERIAL_TEXTURES];
 LODESTAR_BLOCK_END(LodestarMaterial)
 
+/// A light probe; all zero for none.
+LODESTAR_BLOCK(LodestarProbe)
+    vec4 influenceRows[3]; ///< of volumeFromWorld
+    vec4 influenceExtents; ///< xyz half extents; w 1: a sphere
+    vec4 influenceHigh;    ///< xyz blend at +X, +Y, +Z, metres; w 1: outside the faces
+    vec4 influenceLow;     ///< the same at -X, -Y, -Z
+    vec4 proxyRows[3];     ///< of volumeFromWorld
+    vec4 proxyExtents;     ///< xyz half extents; w 1: a sphere, 0: a box, -1: there is no proxy
+    vec4 capturedAt;       ///< xyz in the world; w face width
+    vec4 light;            ///< rgb factor on what is fetched; w last level
+    vec4 tile;             ///< xy first texel of its tile of irradiance
+LODESTAR_BLOCK_ARRAY_END(LodestarProbe, uProbe, 2)
+
 #ifdef __cplusplus
 } // namespace lodestar::scene::blocks
 #endif
 #undef LODESTAR_BLOCK
+#undef LODESTAR_BLOCK_ARRAY_END
 #undef LODESTAR_BLOCK_END
 
 #endif

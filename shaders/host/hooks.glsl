@@ -1,15 +1,36 @@
 // SPDX-License-Identifier: MIT
 //
 // The built-in renderer's answers to the hooks of lodestar/environment.glsl.
+// Slot 0 is the distant environment, 1 and 2 are light probes, as stored.
 // LODESTAR_DIFFUSE chooses how irradiance is got: 0 irradiance cube, 1 sh9, 2 lowest mip, 3 bias.
+// LODESTAR_PROBES says how many probes hold a draw.
 #ifndef LODESTAR_DIFFUSE
 #define LODESTAR_DIFFUSE 0
+#endif
+#ifndef LODESTAR_PROBES
+#define LODESTAR_PROBES 0
 #endif
 
 uniform samplerCube uEnvironment;
 uniform samplerCube uIrradiance;
+#if LODESTAR_PROBES
+uniform samplerCube uFirstProbe;
+#if LODESTAR_PROBES > 1
+uniform samplerCube uSecondProbe;
+#endif
+#endif
 
 vec4 lodestar_host_cube(int slot, vec3 direction, float level) {
+#if LODESTAR_PROBES
+    if (slot == 1) {
+        return textureLod(uFirstProbe, direction, level);
+    }
+#if LODESTAR_PROBES > 1
+    if (slot == 2) {
+        return textureLod(uSecondProbe, direction, level);
+    }
+#endif
+#endif
     vec4 texel = textureLod(uEnvironment, direction, level);
     return vec4(texel.rgb * environmentCube.w, texel.a);
 }

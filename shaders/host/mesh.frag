@@ -11,6 +11,7 @@ in vec2 vUv0;
 in vec2 vUv1;
 in vec4 vColor;
 in float vLeastLevel;
+flat in vec3 vProbes;
 
 layout(location = 0) out vec4 oRadiance; // premultiplied by coverage
 
@@ -19,6 +20,10 @@ layout(location = 0) out vec4 oRadiance; // premultiplied by coverage
 #include "lodestar/rsrm.glsl"
 #include "host/rsrm_hooks.glsl"
 #include "host/shadow.glsl"
+#endif
+#if LODESTAR_PROBES
+#include "lodestar/probes.glsl"
+#include "host/probes.glsl"
 #endif
 
 #if LODESTAR_PUNCTUAL_LIGHTS
@@ -45,7 +50,8 @@ vec3 punctualLights(LodestarSurface here) {
 
 #if LODESTAR_RSRM_LIGHTS
 /// Skies and suns: their means over Lambert's lobe and the glossy one summed, then weighed once.
-vec3 rsrmLights(LodestarSurface here) {
+/// @param open the share of the sky that no probe stands before
+vec3 rsrmLights(LodestarSurface here, float open) {
     LodestarLookup lookup = LODESTAR_RSRM_LAYOUT == LODESTAR_RSRM_PUBLISHED
                                 ? lodestar_lookupAsGiven(here.normal, here.view, here.exponent)
                                 : lodestar_lookup(here.normal, here.view, here.exponent);
@@ -54,7 +60,7 @@ vec3 rsrmLights(LodestarSurface here) {
     vec3 glossy = vec3(0.0);
     for (int i = 0; i < LODESTAR_RSRM_LIGHTS; ++i) {
         LodestarRsrm map = rsrmLight(i);
-        float visible = lodestar_host_visibility(i);
+        float visible = lodestar_host_visibility(i) * (rsrmScale[i].y > 0.5 ? open : 1.0);
         lambert += visible * lodestar_rsrmLambert(map, here.normal);
         glossy += visible * lodestar_rsrm(map, lookup.direction, row);
     }
@@ -73,11 +79,17 @@ void main() {
     color.a = 1.0;
 #endif
 #if LODESTAR_UNLIT
-    oRadiance = vec4(color.rgb * color.a, color.a);
+    oRadiance = vec4(min(color.rgb * color.a * written.x, vec3(written.y)), color.a);
 #else
     vec3 view = lodestar_safeNormalize(cameraPosition.xyz - cameraPosition.w * vPosition, vec3(0.0, 0.0, 1.0));
     LodestarSurface here = surfaceHere(view, color);
     vec3 radiance = emissiveHere();
+    float open = 1.0; // the share of the distant environment
+#if LODESTAR_PROBES
+    LodestarShares shares = probeShares();
+    radiance += probeLight(here, shares);
+    open = shares.environment;
+#endif
 #if LODESTAR_ENVIRONMENT
     LodestarCube cube;
     cube.slot = 0;
@@ -89,14 +101,14 @@ void main() {
     cube.leastLevel = environmentCube.z;
 #endif
     vec3 reflection = 2.0 * dot(here.normal, view) * here.normal - view;
-    radiance += lodestar_environment(cube, here, dFdx(reflection), dFdy(reflection));
+    radiance += open * lodestar_environment(cube, here, dFdx(reflection), dFdy(reflection));
 #endif
 #if LODESTAR_RSRM_LIGHTS
-    radiance += rsrmLights(here);
+    radiance += rsrmLights(here, open);
 #endif
 #if LODESTAR_PUNCTUAL_LIGHTS
     radiance += punctualLights(here);
 #endif
-    oRadiance = vec4(radiance * color.a, color.a);
+    oRadiance = vec4(min(radiance * color.a * written.x, vec3(written.y)), color.a);
 #endif
 }

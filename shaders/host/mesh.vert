@@ -8,7 +8,7 @@ layout(location = 2) in vec4 aTangent;
 layout(location = 3) in vec2 aUv0;
 layout(location = 4) in vec2 aUv1;
 layout(location = 5) in vec4 aColor;
-uniform samplerBuffer uInstances; // of each three rows of worldFromModel, then x: first texel of its joints
+uniform samplerBuffer uInstances; // of each three rows of worldFromModel, then x: first texel of its joints, yzw: what probes may light of it
 uniform int uFirstInstance;
 
 vec4 instanceTexel(int k) {
@@ -63,6 +63,7 @@ out vec2 vUv0;
 out vec2 vUv1;
 out vec4 vColor;
 out float vLeastLevel;
+flat out vec3 vProbes; // f0, f1 and open of lodestar_probeShares
 
 void main() {
 #if LODESTAR_SKINNING
@@ -102,4 +103,5 @@ void main() {
     vLeastLevel = lodestar_biasLevelAtVertex(environmentCube.z, abs(dot(normal, view)));
     gl_Position = clipFromWorld * world;
     gl_PointSize = 3.0;
+    vProbes = instanceTexel(3).yzw;
 }

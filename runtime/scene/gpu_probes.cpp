@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+#include "scene/gpu_probes.h"
+
+#include <algorithm>
+#include <cstring>
+#include <numbers>
+#include <utility>
+
+#include <epoxy/gl.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "scene/gpu_scene.h"
+#include "scene/programs.h"
+
+namespace lodestar::scene {
+namespace {
+
+/// Wider faces are of no use to a probe, and six of them take 200 MB.
+constexpr int kWidest = 2048;
+/// Samples of a captured texel, so that small lamps neither vanish nor flicker.
+constexpr int kSamples = 4;
+
+glm::vec4 rowOf(const shader::LodestarVolume& volume, int row) {
+    return row == 0 ? volume.rowX : row == 1 ? volume.rowY : volume.rowZ;
+}
+
+blocks::LodestarProbe blockOf(const plan::ProbeView& view, const lighting::Probe& probe,
+                              const std::optional<lighting::PlacedVolume>& placed) {
+    blocks::LodestarProbe block{};
+    const shader::LodestarVolume& influence = view.influence->volume;
+    for (int row = 0; row < 3; ++row) {
+        block.influenceRows[row] = rowOf(influence, row);
+    }
+    block.influenceExtents = glm::vec4(influence.halfExtents, influence.sphere);
+    block.influenceHigh = glm::vec4(influence.blendHigh, influence.outward);
+    block.influenceLow = glm::vec4(influence.blendLow, 0.0f);
+    block.proxyExtents.w = -1.0f;
+    if (placed) {
+        const shader::LodestarVolume& proxy = placed->volume;
+        for (int row = 0; row < 3; ++row) {
+            block.proxyRows[row] = rowOf(proxy, row);
+        }
+        block.proxyExtents = glm::vec4(proxy.halfExtents, proxy.sphere);
+    }
+    block.capturedAt = glm::vec4(view.position, 0.0f);
+    block.light = glm::vec4(glm::vec3(probe.tint * probe.intensity), 0.0f);
+    return block;
+}
+
+} // namespace
+
+FaceView faceView(const plan::ProbeView& probe, int face) {
+    constexpr glm::vec3 kForward[] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
+                                      {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
+    constexpr glm::vec3 kUp[] = {{0, -1, 0}, {0, -1, 0}, {0, 0, 1},
+                                 {0, 0, -1}, {0, -1, 0}, {0, -1, 0}};
+    const glm::mat4 clip = glm::perspective(std::numbers::pi_v<float> / 2.0f, 1.0f,
+                                            static_cast<float>(probe.capture.nearPlane),
+                                            static_cast<float>(probe.capture.farPlane));
+    return {probe.position,
+            clip * glm::lookAt(probe.position, probe.position + kForward[face], kUp[face])};
+}
+
+core::Result<void> GpuProbes::prepareShared(gl::Device& device) {
+    if (filter_) {
+        return {};
+    }
+    auto filter = gl::ProbeFilter::make(device);
+    if (!filter) {
+        return filter.error();
+    }
+    auto atlas = gl::IrradianceAtlas::make(device);
+    if (!atlas) {
+        return atlas.error();
+    }
+    device_ = &device;
+    filter_.emplace(std::move(*filter));
+    irradiance_ = std::move(*atlas);
+    faces_ = gl::CubeFaces(device);
+    fullScreen_ = gl::VertexArray(device);
+    return {};
+}
+
+core::Result<GpuProbes::Cubes>
+GpuProbes::makeCubes(gl::Device& device, const ProbeComponent& component, core::Tally& warnings) {
+    const bool fromFile = component.map != nullptr;
+    const int asked = fromFile ? component.map->width() : component.probe.capture.resolution;
+    int width = fromFile ? asked : std::min({asked, kWidest, device.capabilities().maxCubeSize});
+    for (;; width /= 2) {
+        auto captured = fromFile ? gl::Texture::makeCube(device, *component.map, "a probe's file")
+                                 : gl::Texture::makeCubeTarget(device, width, 1, "captured light");
+        if (captured) {
+            auto lit = gl::Texture::makeCubeTarget(device, width, lighting::fullLevelCount(width),
+                                                   "light of a probe");
+            if (lit) {
+                warnings.add("light probe smaller than asked for", width < asked ? 1 : 0);
+                return Cubes{width, std::move(*captured), std::move(*lit)};
+            }
+            captured = lit.error();
+        }
+        if (width <= 1 || fromFile) {
+            return captured.error();
+        }
+    }
+}
+
+core::Result<void> GpuProbes::prepareStaging(gl::Device& device, int width) {
+    if (staging_.contains(width)) {
+        return {};
+    }
+    auto target = gl::FaceTarget::make(device, width, kSamples);
+    if (!target) {
+        return target.error();
+    }
+    auto faces = gl::Texture::makeCubeTarget(device, width, 1, "faces drawn anew");
+    if (!faces) {
+        return faces.error();
+    }
+    staging_.emplace(width, Staging{std::move(*target), std::move(*faces)});
+    return {};
+}
+
+core::Result<void> GpuProbes::prepare(gl::Device& device, const ProbeObserver& observer,
+                                      const plan::EffectPlan& plan, core::Tally& warnings) {
+    if (plan.probeFaces.empty() && plan.probeWork.empty()) {
+        return {};
+    }
+    if (auto shared = prepareShared(device); !shared) {
+        return shared;
+    }
+    cubes_.resize(observer.count());
+    std::vector<std::size_t> needed;
+    for (const plan::ProbeFace& face : plan.probeFaces) {
+        needed.push_back(face.probe);
+    }
+    for (const plan::ProbeWork& work : plan.probeWork) {
+        needed.push_back(work.probe);
+    }
+    for (const std::size_t index : needed) {
+        if (cubes_[index].width > 0) {
+            continue;
+        }
+        auto made = makeCubes(device, observer.component(index), warnings);
+        if (!made) {
+            return made.error();
+        }
+        made->tile = irradiance_.add();
+        cubes_[index] = std::move(*made);
+    }
+    for (const plan::ProbeFace& face : plan.probeFaces) {
+        if (auto made = prepareStaging(device, cubes_[face.probe].width); !made) {
+            return made;
+        }
+    }
+    return {};
+}
+
+void GpuProbes::beginFace(const plan::ProbeFace& face) {
+    staging_.at(cubes_[face.probe].width).target.begin();
+}
+
+void GpuProbes::endFace(const plan::ProbeFace& face) {
+    Cubes& cubes = cubes_[face.probe];
+    Staging& staging = staging_.at(cubes.width);
+    staging.target.resolve(staging.faces, face.face);
+    cubes.staged[static_cast<std::size_t>(face.face)] = true;
+    ++device_->counters().probeFaces;
+}
+
+void GpuProbes::publish(Cubes& cubes) {
+    for (int face = 0; face < 6; ++face) {
+        if (std::exchange(cubes.staged[static_cast<std::size_t>(face)], false)) {
+            faces_.copy(staging_.at(cubes.width).faces, cubes.captured, face);
+        }
+    }
+}
+
+void GpuProbes::compose(const plan::ProbeWork& work, const gl::Program& program, bool fromFile) {
+    const Cubes& cubes = cubes_[work.probe];
+    program.use();
+    glUniform1f(program.uniform("uWidth"), static_cast<float>(cubes.width));
+    glUniform1f(program.uniform("uCapturedScale"),
+                fromFile ? cubes.captured.scale() * written_ : 1.0f);
+    cubes.captured.bind(kFirstProbeUnit);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDepthMask(GL_FALSE);
+    work.fade < 1.0f ? glEnable(GL_BLEND) : glDisable(GL_BLEND);
+    glBlendColor(0.0f, 0.0f, 0.0f, work.fade);
+    glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
+    fullScreen_.bind();
+    for (int face = 0; face < 6; ++face) {
+        faces_.begin(cubes.lit, face);
+        glUniform1i(program.uniform("uFace"), face);
+        gl::drawFullScreen(*device_);
+    }
+    glDisable(GL_BLEND);
+}
+
+void GpuProbes::work(const plan::EffectPlan& plan, const Programs& programs,
+                     const ProbeObserver& observer) {
+    for (const plan::ProbeWork& work : plan.probeWork) {
+        Cubes& cubes = cubes_[work.probe];
+        if (work.publish) {
+            publish(cubes);
+        }
+        if (work.compose) {
+            compose(work, programs.composition(plan),
+                    observer.component(work.probe).map != nullptr);
+        }
+        cubes.lastLevel = std::min(work.lastLevel, cubes.lit.levelCount() - 1);
+        filter_->fillMips(cubes.lit, cubes.lastLevel);
+        if (work.irradiance) {
+            filter_->fillIrradiance(cubes.lit, irradiance_, cubes.tile);
+        }
+    }
+}
+
+void GpuProbes::describe(gl::Device& device, const ProbeObserver& observer,
+                         const plan::PlanInput& input) {
+    const auto alignment = static_cast<std::size_t>(device.capabilities().uniformAlignment);
+    stride_ = (sizeof(blocks::LodestarProbe) + alignment - 1) / alignment * alignment;
+    std::vector<blocks::LodestarProbe> blocks(input.probes.size() + 1);
+    for (std::size_t i = 0; i < input.probes.size(); ++i) {
+        const bool lights = i < cubes_.size() && cubes_[i].width > 0 && input.probes[i].influence;
+        if (lights) {
+            const Cubes& cubes = cubes_[i];
+            blocks::LodestarProbe& block = blocks[i + 1];
+            block = blockOf(input.probes[i], observer.probe(i), observer.proxy(i));
+            block.capturedAt.w = static_cast<float>(cubes.width);
+            block.light /= written_;
+            block.light.w = static_cast<float>(cubes.lastLevel);
+            const glm::ivec2 tile = irradiance_.tile(cubes.tile);
+            block.tile = glm::vec4(glm::vec2(tile), 0.0f, 0.0f);
+        }
+    }
+    if (blocks == blocks_) {
+        return;
+    }
+    std::vector<std::byte> bytes(blocks.size() * stride_);
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        std::memcpy(bytes.data() + i * stride_, &blocks[i], sizeof blocks[i]);
+    }
+    if (blocks_.empty()) {
+        blockBuffer_ = gl::Buffer(device, gl::BufferKind::Uniform, bytes);
+    } else {
+        blockBuffer_.update(bytes);
+    }
+    blocks_ = std::move(blocks);
+}
+
+void GpuProbes::bind(const std::array<int, 2>& probes) const {
+    constexpr int kUnits[] = {kFirstProbeUnit, kSecondProbeUnit};
+    constexpr unsigned kBindings[] = {kFirstProbeBinding, kSecondProbeBinding};
+    for (std::size_t slot = 0; slot < 2; ++slot) {
+        const int probe = probes[slot];
+        const std::size_t block = static_cast<std::size_t>(probe + 1); // kNone is -1
+        blockBuffer_.bindBlock(kBindings[slot], block * stride_, sizeof(blocks::LodestarProbe));
+        if (probe != plan::ProbeChoice::kNone) {
+            cubes_[static_cast<std::size_t>(probe)].lit.bind(kUnits[slot]);
+        }
+    }
+    if (irradiance_.texture()) {
+        irradiance_.texture().bind(kProbeIrradianceUnit);
+    }
+}
+
+} // namespace lodestar::scene

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+//
+// What the planner is told of a scene's light probes: where they are, what has moved before them,
+// under what light they were captured.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "plan/effect_plan.h"
+#include "plan/probe_history.h"
+#include "scene/scene.h"
+
+namespace lodestar::scene {
+
+class ProbeObserver {
+public:
+    explicit ProbeObserver(const Scene& scene);
+
+    [[nodiscard]] bool empty() const { return places_.empty(); }
+    [[nodiscard]] std::size_t count() const { return places_.size(); }
+    [[nodiscard]] const lighting::Probe& probe(std::size_t index) const;
+    [[nodiscard]] const ProbeComponent& component(std::size_t index) const;
+
+    /// Its proxy in the world; nothing where it has none, or one without an inside.
+    [[nodiscard]] std::optional<lighting::PlacedVolume> proxy(std::size_t index) const;
+
+    /// Fills the input's probes from the scene's pose and the draws that it holds already.
+    /// @param light of this frame  @param drawsKept no draw has changed since the last call
+    void describe(const plan::LightState& light, bool drawsKept, double lightThreshold,
+                  plan::PlanInput& input);
+    /// Notes what has been done for the input last described.
+    void executed(const plan::EffectPlan& plan);
+    /// Asks for a capture of one whose update is on demand.
+    void request(std::size_t index) { histories_[index].requested = true; }
+    [[nodiscard]] bool isReady(std::size_t index) const { return histories_[index].ready; }
+    /// What is kept of a probe is lost: it is captured anew.
+    void forget(std::size_t index) { histories_[index] = {}; }
+
+private:
+    struct Place {
+        std::size_t node = 0, component = 0;
+    };
+    struct Box {
+        glm::vec3 low{0.0f}, high{0.0f};
+        bool operator==(const Box&) const = default;
+    };
+
+    [[nodiscard]] plan::ProbeView view(std::size_t index) const;
+    [[nodiscard]] std::vector<plan::Moved> moved(const plan::PlanInput& input);
+    void addMovedLights(std::vector<plan::Moved>& moved);
+
+    const Scene& scene_;
+    std::vector<Place> places_;
+    std::vector<plan::ProbeHistory> histories_;
+    std::vector<Box> boxes_;        ///< of the draws, when last described
+    std::vector<glm::mat4> lights_; ///< the punctual lights' frames
+    plan::LightState light_;
+};
+
+/// Gives the scene light probes: at the nodes that they name, else at nodes of their own. Those
+/// whose node the scene lacks are counted and left out.
+/// @param maps of the probes that hold a file's light, level 0; in their order, empty for others
+void addProbes(Scene& scene, std::span<const lighting::Probe> probes,
+               std::span<const lighting::Cubemap> maps, core::Tally& warnings);
+
+} // namespace lodestar::scene
