@@ -249,6 +249,22 @@ void GpuProbes::describe(gl::Device& device, const ProbeObserver& observer,
     blocks_ = std::move(blocks);
 }
 
+core::Image GpuProbes::read(std::size_t probe, int face, int level) const {
+    if (probe >= cubes_.size() || level > cubes_[probe].lastLevel || cubes_[probe].width == 0) {
+        return {};
+    }
+    const int width = std::max(cubes_[probe].width >> level, 1);
+    core::Image image(width, width, 4);
+    cubes_[probe].lit.bind(kFirstProbeUnit);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTexImage(GL_TEXTURE_CUBE_MAP_POSITIVE_X + static_cast<GLenum>(face), level, GL_RGBA,
+                  GL_FLOAT, image.pixels().data());
+    for (std::size_t i = 0; i < image.pixels().size(); ++i) {
+        image.pixels()[i] /= i % 4 < 3 ? written_ : 1.0f;
+    }
+    return image;
+}
+
 void GpuProbes::bind(const std::array<int, 2>& probes) const {
     constexpr int kUnits[] = {kFirstProbeUnit, kSecondProbeUnit};
     constexpr unsigned kBindings[] = {kFirstProbeBinding, kSecondProbeBinding};

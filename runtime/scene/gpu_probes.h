@@ -50,6 +50,9 @@ public:
 
     /// Uploads the blocks of all probes where they have changed.
     void describe(gl::Device& device, const ProbeObserver& observer, const plan::PlanInput& input);
+    /// A face of what a probe lights with: radiance, row 0 first as GL has it, level 0 or a mip
+    /// that is made; empty where it has none. Waits for the GPU.
+    [[nodiscard]] core::Image read(std::size_t probe, int face, int level) const;
     /// Binds the two that hold a draw.
     void bind(const std::array<int, 2>& probes) const;
 

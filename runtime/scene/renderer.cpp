@@ -224,6 +224,26 @@ const core::Tally& Renderer::lightWarnings() const {
     return state_->lights.warnings();
 }
 
+std::size_t Renderer::probeCount() const {
+    return state_->observer.count();
+}
+
+const std::string& Renderer::probeName(std::size_t probe) const {
+    return state_->observer.probe(probe).name;
+}
+
+void Renderer::requestProbe(std::size_t probe) {
+    state_->observer.request(probe);
+}
+
+bool Renderer::isProbeReady(std::size_t probe) const {
+    return state_->observer.isReady(probe);
+}
+
+core::Image Renderer::readProbe(std::size_t probe, int face, int level) const {
+    return state_->probes.read(probe, face, level);
+}
+
 const core::Tally& Renderer::probeWarnings() const {
     return state_->probeWarnings;
 }

@@ -91,6 +91,16 @@ public:
     /// Counts of light probes that got less than they asked for.
     [[nodiscard]] const core::Tally& probeWarnings() const;
 
+    /// Light probes stand in the order of the scene's nodes.
+    [[nodiscard]] std::size_t probeCount() const;
+    [[nodiscard]] const std::string& probeName(std::size_t probe) const;
+    /// Asks for a capture, whatever the probe's update policy.
+    void requestProbe(std::size_t probe);
+    /// Whether a probe lights what it holds: it has been captured whole.
+    [[nodiscard]] bool isProbeReady(std::size_t probe) const;
+    /// A face of what a probe lights with, as GpuProbes::read.
+    [[nodiscard]] core::Image readProbe(std::size_t probe, int face, int level = 0) const;
+
     /// @errors NoOpenGl, Internal (a shader that the driver refuses)
     [[nodiscard]] core::Result<Frame> render(const View& view, const RenderSettings& settings);
 
