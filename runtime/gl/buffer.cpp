@@ -153,8 +153,8 @@ void drawIndexed(Device& device, DrawMode mode, const IndexRange& indices, int i
     ++device.counters().draws;
 }
 
-void drawFullScreen(Device& device) {
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+void drawFullScreen(Device& device, int instances) {
+    glDrawArraysInstanced(GL_TRIANGLES, 0, 3, instances);
     ++device.counters().draws;
 }
 

@@ -83,6 +83,6 @@ struct IndexRange {
 /// Draws indexed triangles (or lines, points) of 32-bit indices from the bound vertex array.
 void drawIndexed(Device& device, DrawMode mode, const IndexRange& indices, int instances = 1);
 /// Draws one triangle that covers the viewport; the vertex shader makes it from gl_VertexID.
-void drawFullScreen(Device& device);
+void drawFullScreen(Device& device, int instances = 1);
 
 } // namespace lodestar::gl

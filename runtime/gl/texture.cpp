@@ -10,6 +10,7 @@
 
 #include <epoxy/gl.h>
 
+#include "core/contract.h"
 #include "lighting/cube_texels.h"
 #include "lodestar/display.glsl"
 
@@ -60,6 +61,17 @@ core::Result<void> checkAllocation(const char* label) {
 void setLabel(const Device& device, unsigned id, const char* label) {
     if (device.capabilities().debugOutput) {
         glObjectLabel(GL_TEXTURE, id, -1, label);
+    }
+}
+
+/// Seamless and trilinear, of the cube that is bound.
+void setCubeState(int levels) {
+    glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAX_LEVEL, levels - 1);
+    glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    constexpr GLenum kWraps[] = {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R};
+    for (const GLenum wrap : kWraps) {
+        glTexParameteri(GL_TEXTURE_CUBE_MAP, wrap, GL_CLAMP_TO_EDGE);
     }
 }
 
@@ -202,16 +214,44 @@ core::Result<Texture> Texture::makeCube(Device& device, const lighting::Cubemap&
     if (auto allocated = checkAllocation(label); !allocated) {
         return allocated.error();
     }
-    glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAX_LEVEL, map.levelCount() - 1);
-    glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    constexpr GLenum kWraps[] = {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R};
-    for (const GLenum wrap : kWraps) {
-        glTexParameteri(GL_TEXTURE_CUBE_MAP, wrap, GL_CLAMP_TO_EDGE);
-    }
+    setCubeState(map.levelCount());
     setLabel(device, texture.id_, label);
     device.counters().textureBytes += texture.bytes_;
     return texture;
+}
+
+core::Result<Texture> Texture::makeCubeTarget(Device& device, int width, int levels,
+                                              const char* label) {
+    LODESTAR_EXPECT(width > 0 && levels > 0 && levels <= lighting::fullLevelCount(width),
+                    "a cube target has texels and levels");
+    (void)checkAllocation(label); // what was reported before is not this texture's
+    Texture texture(device, GL_TEXTURE_CUBE_MAP);
+    texture.width_ = width;
+    texture.levelCount_ = levels;
+    glBindTexture(GL_TEXTURE_CUBE_MAP, texture.id_);
+    for (int level = 0; level < levels; ++level) {
+        const GLsizei side = std::max(1, width >> level);
+        for (GLenum face = 0; face < 6; ++face) {
+            glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, level, GL_RGBA16F, side, side, 0,
+                         GL_RGBA, GL_HALF_FLOAT, nullptr);
+        }
+        texture.bytes_ +=
+            std::size_t{48} * static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+    }
+    if (auto allocated = checkAllocation(label); !allocated) {
+        texture.bytes_ = 0;
+        return allocated.error();
+    }
+    setCubeState(levels);
+    setLabel(device, texture.id_, label);
+    device.counters().textureBytes += texture.bytes_;
+    return texture;
+}
+
+void Texture::showLevels(int first, int last) const {
+    glBindTexture(target_, id_);
+    glTexParameteri(target_, GL_TEXTURE_BASE_LEVEL, first);
+    glTexParameteri(target_, GL_TEXTURE_MAX_LEVEL, last);
 }
 
 namespace {
@@ -246,6 +286,33 @@ void setArrayState(GLenum target, GLint wrap) {
 }
 
 } // namespace
+
+core::Result<Texture> Texture::makeTarget(Device& device, int width, int height, ArrayFormat format,
+                                          bool linear, const char* label) {
+    Texture texture(device, GL_TEXTURE_2D);
+    texture.width_ = width;
+    texture.height_ = height;
+    texture.format_ = format;
+    const GlFormat gl = glFormat(format);
+    const std::size_t bytes =
+        gl.bytes * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    const std::vector<std::uint8_t> black(bytes);
+    glBindTexture(GL_TEXTURE_2D, texture.id_);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexImage2D(GL_TEXTURE_2D, 0, gl.internal, width, height, 0, gl.format, gl.type, black.data());
+    if (auto allocated = checkAllocation(label); !allocated) {
+        return allocated.error();
+    }
+    setArrayState(GL_TEXTURE_2D, GL_CLAMP_TO_EDGE);
+    if (!linear) {
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    }
+    setLabel(device, texture.id_, label);
+    texture.bytes_ = bytes;
+    device.counters().textureBytes += bytes;
+    return texture;
+}
 
 core::Result<void> Texture::allocateArray(int layers, const char* label) {
     LODESTAR_EXPECT(width_ > 0 && height_ > 0 && layers > 0, "an array has texels and layers");

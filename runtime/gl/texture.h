@@ -55,6 +55,14 @@ public:
     /// power-of-two scale where the largest value allows it, else floats: nothing is clamped.
     [[nodiscard]] static core::Result<Texture>
     makeCube(Device& device, const lighting::Cubemap& map, const char* label);
+    /// A cube of half floats that passes draw into, sampled seamlessly and trilinearly. Its texels
+    /// are not defined yet. @pre levels in [1, fullLevelCount(width)]
+    [[nodiscard]] static core::Result<Texture> makeCubeTarget(Device& device, int width, int levels,
+                                                              const char* label);
+    /// A texture that passes draw into, filtered linearly or not, clamped at its edges; black.
+    [[nodiscard]] static core::Result<Texture> makeTarget(Device& device, int width, int height,
+                                                          ArrayFormat format, bool linear,
+                                                          const char* label);
     /// Layers of one size, filtered linearly within each, clamped at their edges; black until
     /// `updateLayer`.
     [[nodiscard]] static core::Result<Texture> makeArray(Device& device, int width, int height,
@@ -86,7 +94,11 @@ public:
     /// What a fetched value is multiplied by to be radiance; 1 but for scaled cubes.
     [[nodiscard]] float scale() const { return scale_; }
 
+    [[nodiscard]] int height() const { return height_; }
+
     void bind(int unit) const;
+    /// Lets lookups see a range of levels alone. @pre a cube target, bound or not
+    void showLevels(int first, int last) const;
 
 private:
     Texture(Device& device, unsigned target);

@@ -11,8 +11,7 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
-
-#include "lodestar/probes.glsl"
+#include <glm/vec4.hpp>
 
 namespace lodestar::lighting {
 
@@ -63,11 +62,16 @@ struct Probe {
     bool operator==(const Probe&) const = default;
 };
 
-/// A volume in the world, as shaders read it.
+/// A volume in the world: the members of LodestarVolume of shaders/lodestar/probes.glsl.
 struct PlacedVolume {
-    shader::LodestarVolume volume;
+    std::array<glm::vec4, 3> rows{}; ///< of volumeFromWorld
+    glm::vec3 halfExtents{0.0f};     ///< metres of its frame; a sphere's radius in all three
+    glm::vec3 blendHigh{0.0f}, blendLow{0.0f}; ///< metres of its frame; a sphere's in x
+    bool sphere = false;
+    bool outward = false;            ///< blends lie outside its faces
     glm::vec3 low{0.0f}, high{0.0f}; ///< the world box beyond which its weight is 0
     double measure = 0.0;            ///< cubic metres inside its faces
+    bool operator==(const PlacedVolume&) const = default;
 };
 
 /// A volume as its node carries it. @param outward blend lies outside its faces (interiors)

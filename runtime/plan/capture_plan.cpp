@@ -38,7 +38,8 @@ void planCaptures(const PlanInput& input, EffectPlan& result) {
 std::string planText(const EffectPlan& plan) {
     std::string text;
     for (const Effect& effect : plan.effects) {
-        text += effect.effect + " '" + effect.subject +
+        const bool probe = effect.effect.compare(0, 6, "probe-") == 0;
+        text += (probe ? std::string("Probe") : effect.effect) + " '" + effect.subject +
                 (effect.decision == Decision::Run ? "': " : "': skipped: ") + effect.reason + "\n";
     }
     return text;

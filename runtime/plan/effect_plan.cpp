@@ -3,17 +3,17 @@
 
 #include <algorithm>
 #include <array>
-#include <tuple>
 
 #include "lighting/lookup.h"
 #include "plan/capture_plan.h"
+#include "plan/draw_plan.h"
 
 namespace lodestar::plan {
 namespace {
 
 using lighting::PreparedParts;
 
-constexpr std::array<const char*, 23> kFeatureNames = {"normals",
+constexpr std::array<const char*, 25> kFeatureNames = {"normals",
                                                        "tangents",
                                                        "vertex-colors",
                                                        "base-color-texture",
@@ -35,7 +35,9 @@ constexpr std::array<const char*, 23> kFeatureNames = {"normals",
                                                        "second-joints",
                                                        "rsrm-lights",
                                                        "shadows",
-                                                       "rsrm-mirror"};
+                                                       "rsrm-mirror",
+                                                       "probe",
+                                                       "second-probe"};
 
 /// Texels of a whole chain of six faces.
 std::uint64_t chainTexels(int width) {
@@ -56,10 +58,24 @@ struct Receivers {
     bool glossy = false;
 };
 
-Receivers visibleReceivers(const PlanInput& input) {
+/// By draw, whether a face of a probe sees it in this frame.
+std::vector<bool> capturedDraws(const PlanInput& input, const EffectPlan& result) {
+    std::vector<bool> captured(input.draws.size());
+    for (const ProbeFace& face : result.probeFaces) {
+        for (const std::size_t draw : face.drawOrder) {
+            captured[draw] = true;
+        }
+    }
+    return captured;
+}
+
+/// Of the picture and the faces of probes.
+Receivers receiversOf(const PlanInput& input, const EffectPlan& result) {
     Receivers receivers;
-    for (const DrawView& draw : input.draws) {
-        if (draw.visible) {
+    const std::vector<bool> captured = capturedDraws(input, result);
+    for (std::size_t i = 0; i < input.draws.size(); ++i) {
+        const DrawView& draw = input.draws[i];
+        if (draw.visible || captured[i]) {
             receivers.any = true;
             receivers.lit = receivers.lit || draw.lit;
             receivers.diffuse = receivers.diffuse || (draw.lit && draw.diffuse);
@@ -121,13 +137,16 @@ void planEnvironment(const PlanInput& input, const Receivers& receivers, EffectP
         const bool present = input.environment.present;
         const bool glossy = present && receivers.glossy && forSpecular.*part.member;
         const bool lambert = present && receivers.diffuse && forDiffuse.*part.member;
-        // The backdrop reads level 0 of whichever chain there is; it asks for one only alone.
-        const bool backdropOnly = present && part.member == &PreparedParts::tentMips &&
-                                  input.backdrop && !(receivers.glossy && forSpecular.boxMips);
+        // The backdrop and compositions read whichever chain there is; they ask for one only alone.
+        const bool composes = !result.probeWork.empty();
+        const bool seenOnly = present && part.member == &PreparedParts::tentMips &&
+                              (input.backdrop || composes) &&
+                              !(receivers.glossy && forSpecular.boxMips);
         if (glossy || lambert) {
             part.askedBecause = glossy ? specular : diffuse;
-        } else if (backdropOnly) {
-            part.askedBecause = "the backdrop shows it";
+        } else if (seenOnly) {
+            part.askedBecause =
+                input.backdrop ? "the backdrop shows it" : "light probes are composed before it";
         }
         const bool estimated = forSpecular.*part.member || forDiffuse.*part.member;
         const std::string unwanted = !present         ? absence(input.environment)
@@ -136,7 +155,7 @@ void planEnvironment(const PlanInput& input, const Receivers& receivers, EffectP
                                      : !receivers.lit ? "all that is visible is unlit"
                                                       : "no visible surface reflects that way";
         result.effects.push_back(
-            decidePart(input, part, glossy || lambert || backdropOnly, unwanted, result.prepare));
+            decidePart(input, part, glossy || lambert || seenOnly, unwanted, result.prepare));
     }
 }
 
@@ -177,34 +196,6 @@ Effect shadowEffect(const PlanInput& input, const Receivers& receivers, const Rs
     return effect;
 }
 
-/// By what draws share: features, so that programs switch seldom, then material and geometry, so
-/// that neighbours are batches.
-auto sharing(const DrawView& draw) {
-    return std::tuple(draw.features, draw.material, draw.geometry, draw.mirrored);
-}
-
-void sortByShared(const PlanInput& input, std::vector<std::size_t>& order) {
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return sharing(input.draws[a]) < sharing(input.draws[b]);
-    });
-}
-
-/// @param before instances that stand before the order's first
-std::vector<Batch> batchesOf(const PlanInput& input, const std::vector<std::size_t>& order,
-                             std::size_t before) {
-    std::vector<Batch> batches;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool newPage = (before + i) % input.instancesPerPage == 0;
-        if (i > 0 && !newPage &&
-            sharing(input.draws[order[i]]) == sharing(input.draws[order[i - 1]])) {
-            ++batches.back().count;
-        } else {
-            batches.push_back({i, 1, input.draws[order[i]].mirrored});
-        }
-    }
-    return batches;
-}
-
 /// Skies and suns: blended when their hour asks for it; suns that are up are hidden by casters.
 void planRsrmLights(const PlanInput& input, const Receivers& receivers, EffectPlan& result) {
     const bool shadows = std::any_of(input.rsrmLights.begin(), input.rsrmLights.end(),
@@ -215,11 +206,11 @@ void planRsrmLights(const PlanInput& input, const Receivers& receivers, EffectPl
             casters.push_back(i);
         }
     }
-    sortByShared(input, casters);
+    sortByShared(input, {}, casters);
     const auto visible = std::count_if(input.draws.begin(), input.draws.end(),
                                        [](const DrawView& draw) { return draw.visible; });
     const std::vector<Batch> casterBatches =
-        batchesOf(input, casters, static_cast<std::size_t>(visible));
+        batchesOf(input, {}, casters, static_cast<std::size_t>(visible));
     for (std::size_t i = 0; i < input.rsrmLights.size(); ++i) {
         const RsrmLightView& light = input.rsrmLights[i];
         LitLight lit{i, false, -1, false};
@@ -249,9 +240,10 @@ void planRsrmLights(const PlanInput& input, const Receivers& receivers, EffectPl
 void planDeformation(const PlanInput& input, EffectPlan& result) {
     std::size_t skinned = 0, morphed = 0, changed = 0;
     std::uint64_t morphBytes = 0;
+    const std::vector<bool> captured = capturedDraws(input, result);
     for (std::size_t i = 0; i < input.draws.size(); ++i) {
         const DrawView& draw = input.draws[i];
-        const bool needed = draw.visible || (draw.casts && !result.casters.empty());
+        const bool needed = draw.visible || captured[i] || (draw.casts && !result.casters.empty());
         if (needed) {
             result.deformed.push_back(i);
         }
@@ -285,76 +277,14 @@ void planDeformation(const PlanInput& input, EffectPlan& result) {
     result.effects.push_back(std::move(morphs));
 }
 
-/// What every lit draw's shader reads.
-Features lightFeatures(const PlanInput& input, const EffectPlan& result) {
-    Features features = input.environment.present ? bit(Feature::Environment) : 0u;
-    features |= result.rsrmLights.empty() ? 0u : bit(Feature::RsrmLights);
-    features |= result.shadowedLights() > 0 ? bit(Feature::Shadows) : 0u;
-    features |= input.lightCount > 0 ? bit(Feature::PunctualLights) : 0u;
-    return features;
-}
-
-/// An effect for each draw; the call to the driver is the first's of its batch.
-void describeDraws(const PlanInput& input, EffectPlan& result) {
-    std::vector<std::size_t> leader(input.draws.size());
-    for (const Batch& batch : result.batches) {
-        for (std::size_t i = 0; i < batch.count; ++i) {
-            leader[result.drawOrder[batch.first + i]] = result.drawOrder[batch.first];
-        }
-    }
-    for (std::size_t i = 0; i < input.draws.size(); ++i) {
-        const DrawView& draw = input.draws[i];
-        Effect effect{"draw", draw.subject, Decision::Skip, "outside the view", {}};
-        if (draw.visible) {
-            effect.decision = Decision::Run;
-            effect.reason = leader[i] == i ? "inside the view"
-                                           : "inside the view, in one call with '" +
-                                                 input.draws[leader[i]].subject + "'";
-            effect.cost.draws = leader[i] == i ? 1 : 0;
-        }
-        result.effects.push_back(std::move(effect));
-    }
-}
-
-Features featuresOf(const PlanInput& input, const DrawView& draw, Features lights) {
-    if (!draw.lit) {
-        return draw.features;
-    }
-    Features features = draw.features | lights;
-    if (has(features, Feature::RsrmLights) && !input.rsrmPublished &&
-        draw.sharpest > input.rsrmGreatestExponent) {
-        features |= bit(Feature::RsrmMirror);
-    }
-    return features;
-}
-
-void planDraws(const PlanInput& input, EffectPlan& result) {
-    std::vector<std::size_t> blended;
-    for (std::size_t i = 0; i < input.draws.size(); ++i) {
-        if (input.draws[i].visible) {
-            (input.draws[i].blended ? blended : result.drawOrder).push_back(i);
-        }
-    }
-    sortByShared(input, result.drawOrder);
-    std::stable_sort(blended.begin(), blended.end(), [&](std::size_t a, std::size_t b) {
-        return input.draws[a].distance > input.draws[b].distance;
-    });
-    result.drawOrder.insert(result.drawOrder.end(), blended.begin(), blended.end());
-    result.batches = batchesOf(input, result.drawOrder, 0);
-    const Features lights = lightFeatures(input, result);
-    for (const std::size_t index : result.drawOrder) {
-        result.drawFeatures.push_back(featuresOf(input, input.draws[index], lights));
-    }
-    describeDraws(input, result);
-}
-
 /// The environment, the lights' gradients, or both; nothing is drawn where there is neither.
 void planBackdrop(const PlanInput& input, EffectPlan& result) {
     const bool cube = input.environment.present;
     const bool lights = !result.rsrmLights.empty();
     result.backdrop = input.backdrop && (cube || lights);
-    result.backdropFeatures =
+    result.skyFeatures =
         (cube ? bit(Feature::Environment) : 0u) | (lights ? bit(Feature::RsrmLights) : 0u);
+    result.backdropFeatures = result.skyFeatures;
     const char* reason = !input.backdrop  ? "switched off"
                          : cube && lights ? "the environment and the lights are the background"
                          : cube           ? "the environment is the background"
@@ -392,12 +322,15 @@ bool EffectPlan::runs(const std::string& effect) const {
 
 EffectPlan plan(const PlanInput& input) {
     EffectPlan result;
-    const Receivers receivers = visibleReceivers(input);
-    planEnvironment(input, receivers, result);
     planCaptures(input, result);
+    const ProbeIndex index(input.probes);
+    const std::vector<ProbeChoice> choices = planProbes(input, index, result);
+    const Receivers receivers = receiversOf(input, result);
+    planEnvironment(input, receivers, result);
     planRsrmLights(input, receivers, result);
     planDeformation(input, result);
-    planDraws(input, result);
+    planDraws(input, choices, result);
+    planFaces(input, index, result);
     result.effects.push_back(
         {"punctual-lights",
          std::to_string(input.lightCount) + " lights",

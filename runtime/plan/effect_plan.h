@@ -68,7 +68,9 @@ struct DrawView {
     bool casts = true; ///< a shadow: triangles that are not blended
     /// Phong exponent of its sharpest lookup; infinite where a texture gives it.
     double sharpest = std::numeric_limits<double>::infinity();
-    float distance = 0.0f; ///< metres along the view, for the order of blended draws
+    double bluntest = 0.0;    ///< of its bluntest; 0 where a texture gives it
+    float screenShare = 0.0f; ///< of the picture that it may cover, [0, 1]
+    float distance = 0.0f;    ///< metres along the view, for the order of blended draws
     /// Draws of one geometry, one material and one winding are one call to the driver.
     std::uint64_t geometry = 0;
     std::uint32_t material = 0;
@@ -151,6 +153,7 @@ struct Effect {
     Decision decision = Decision::Run;
     std::string reason; ///< a sentence for people
     Cost cost;
+    std::vector<int> faces{}; ///< of a probe's capture, in OpenGL's order
     bool operator==(const Effect&) const = default;
 };
 
@@ -192,10 +195,10 @@ struct ProbeFace {
 /// What is made of a probe's captured faces, after they are drawn.
 struct ProbeWork {
     std::size_t probe = 0;
-    bool publish = false;    ///< the faces drawn since the last take the place of the old ones
-    float fade = 1.0f;       ///< how much of the way from what shows to what was published, (0, 1]
-    bool compose = false;    ///< the sky behind the captured geometry, into level 0
-    int lastLevel = 0;       ///< the mip levels 1 to this are made
+    bool publish = false; ///< the faces drawn since the last take the place of the old ones
+    int fadeLeft = 1;     ///< frames, this one too, until it shows fully: 1 / that of the way now
+    bool compose = false; ///< the sky behind the captured geometry, into level 0
+    int lastLevel = 0;    ///< the mip levels 1 to this are made
     bool irradiance = false; ///< its irradiance is made
     bool operator==(const ProbeWork&) const = default;
 };
@@ -219,6 +222,7 @@ struct EffectPlan {
     std::vector<std::size_t> deformed;
     bool backdrop = false;
     Features backdropFeatures = 0;
+    Features skyFeatures = 0; ///< which of the environment and the lights are behind everything
 
     /// How many of the lights have a shadow map: the first ones.
     [[nodiscard]] std::size_t shadowedLights() const;

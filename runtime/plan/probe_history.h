@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,17 +39,22 @@ struct LightState {
 /// earlier's sum: the sum over sources of the vectors' differences bounds it for any normal.
 [[nodiscard]] double lightChange(const LightState& then, const LightState& now);
 
+/// Faces are drawn in rounds: once all that are stale have been drawn, they are published together.
 struct ProbeHistory {
     std::array<bool, 6> stale{true, true, true, true, true, true};
-    std::array<bool, 6> drawn{};
+    std::array<bool, 6> drawn{}; ///< in this round
+    std::array<bool, 6> again{}; ///< changed since they were drawn: stale in the next round
     bool ready = false;
     bool requested = false;
     std::string because = "it shows nothing yet";
-    int waiting = 0;          ///< frames
-    int sinceCapture = 0;     ///< frames since the last was published
-    double speed = 0.0;       ///< metres a frame
-    int fadeLeft = 0;         ///< frames
-    LightState capturedUnder; ///< while its faces were drawn
+    int waiting = 0;      ///< frames
+    int drawnFor = 0;     ///< frames that this round has taken
+    int sinceCapture = 0; ///< frames since the last was published
+    double speed = 0.0;   ///< metres a frame
+    int fadeLeft = 0;     ///< frames
+    std::optional<glm::vec3> position;
+    LightState capturedUnder; ///< when the first of the six faces that show was drawn
+    LightState drawingUnder;  ///< when the first of this round was
     std::uint64_t composedUnder = 0;
     bool operator==(const ProbeHistory&) const = default;
 };

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,7 +43,8 @@ struct ProbeView {
     bool requested = false;      ///< asked for, of ProbeUpdate::OnDemand
     bool skyChanged = false;     ///< what stands behind its geometry, since it was composed
     int fadeLeft = 0;            ///< frames until what was published last shows fully
-    bool operator==(const ProbeView&) const;
+    int drawnFor = 0;            ///< frames that the faces drawn have taken
+    bool operator==(const ProbeView&) const = default;
 };
 
 /// The two probes that light a draw, the one in front first; what shaders/lodestar/probes.glsl
@@ -50,21 +52,29 @@ struct ProbeView {
 struct ProbeChoice {
     static constexpr int kNone = -1;
     std::array<int, 2> probe{kNone, kNone}; ///< into PlanInput::probes
+    std::array<bool, 2> dark{};             ///< it keeps the sky out and gives no light
     std::array<float, 2> factor{};          ///< f0, f1 of lodestar_probeShares
     float open = 1.0f;                      ///< the same's
     bool operator==(const ProbeChoice&) const = default;
 };
 
-/// Finds the probes about a box quickly. Holds references to what it was made of.
+/// Finds the probes about a box quickly. Refers to the views that it was made of.
 class ProbeIndex {
 public:
     explicit ProbeIndex(std::span<const ProbeView> probes);
     ~ProbeIndex();
+    ProbeIndex(const ProbeIndex&) = delete;
+    ProbeIndex& operator=(const ProbeIndex&) = delete;
+
     /// The choice for a draw. Probes stand in order of priority, the smaller volume, the list: each
     /// hides those behind it by its mean weight over the box. The two that show most are taken; a
-    /// third that shows as much as the second drives the factor to 0, so that nothing jumps when it
-    /// takes its place. @param except a probe that is left out, whose own capture it is
+    /// third that shows as much as the second drives its factor to 0, so that nothing jumps when it
+    /// takes its place.
+    /// @param lights by probe, whether it can; an interior that cannot keeps the sky out all the
+    /// same
+    /// @param except one that does not, whose own capture it is
     [[nodiscard]] ProbeChoice choose(const glm::vec3& low, const glm::vec3& high,
+                                     const std::vector<bool>& lights,
                                      int except = ProbeChoice::kNone) const;
     /// The probes whose influence a box touches, in the order that `choose` uses.
     void touching(const glm::vec3& low, const glm::vec3& high, std::vector<int>& out) const;
@@ -74,7 +84,13 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// Decides all that concerns probes and says so. @pre result.drawOrder is made
-void planProbes(const PlanInput& input, EffectPlan& result);
+/// Whether each probe could light when the frame began.
+[[nodiscard]] std::vector<bool> readyProbes(const PlanInput& input);
+
+/// Decides which faces are drawn and what is made of them, and says so. The faces' draws are those
+/// that they see, in the input's order. @return the probes that light each draw of the picture;
+/// empty where there are none
+[[nodiscard]] std::vector<ProbeChoice> planProbes(const PlanInput& input, const ProbeIndex& index,
+                                                  EffectPlan& result);
 
 } // namespace lodestar::plan

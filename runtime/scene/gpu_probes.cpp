@@ -20,27 +20,18 @@ constexpr int kWidest = 2048;
 /// Samples of a captured texel, so that small lamps neither vanish nor flicker.
 constexpr int kSamples = 4;
 
-glm::vec4 rowOf(const shader::LodestarVolume& volume, int row) {
-    return row == 0 ? volume.rowX : row == 1 ? volume.rowY : volume.rowZ;
-}
-
 blocks::LodestarProbe blockOf(const plan::ProbeView& view, const lighting::Probe& probe,
                               const std::optional<lighting::PlacedVolume>& placed) {
     blocks::LodestarProbe block{};
-    const shader::LodestarVolume& influence = view.influence->volume;
-    for (int row = 0; row < 3; ++row) {
-        block.influenceRows[row] = rowOf(influence, row);
-    }
-    block.influenceExtents = glm::vec4(influence.halfExtents, influence.sphere);
-    block.influenceHigh = glm::vec4(influence.blendHigh, influence.outward);
+    const lighting::PlacedVolume& influence = *view.influence;
+    std::copy(influence.rows.begin(), influence.rows.end(), block.influenceRows);
+    block.influenceExtents = glm::vec4(influence.halfExtents, influence.sphere ? 1.0f : 0.0f);
+    block.influenceHigh = glm::vec4(influence.blendHigh, influence.outward ? 1.0f : 0.0f);
     block.influenceLow = glm::vec4(influence.blendLow, 0.0f);
     block.proxyExtents.w = -1.0f;
     if (placed) {
-        const shader::LodestarVolume& proxy = placed->volume;
-        for (int row = 0; row < 3; ++row) {
-            block.proxyRows[row] = rowOf(proxy, row);
-        }
-        block.proxyExtents = glm::vec4(proxy.halfExtents, proxy.sphere);
+        std::copy(placed->rows.begin(), placed->rows.end(), block.proxyRows);
+        block.proxyExtents = glm::vec4(placed->halfExtents, placed->sphere ? 1.0f : 0.0f);
     }
     block.capturedAt = glm::vec4(view.position, 0.0f);
     block.light = glm::vec4(glm::vec3(probe.tint * probe.intensity), 0.0f);
@@ -144,7 +135,11 @@ core::Result<void> GpuProbes::prepare(gl::Device& device, const ProbeObserver& o
         if (!made) {
             return made.error();
         }
-        made->tile = irradiance_.add();
+        auto tile = irradiance_.add();
+        if (!tile) {
+            return tile.error();
+        }
+        made->tile = *tile;
         cubes_[index] = std::move(*made);
     }
     for (const plan::ProbeFace& face : plan.probeFaces) {
@@ -178,6 +173,7 @@ void GpuProbes::publish(Cubes& cubes) {
 void GpuProbes::compose(const plan::ProbeWork& work, const gl::Program& program, bool fromFile) {
     const Cubes& cubes = cubes_[work.probe];
     program.use();
+    glUniform1ui(program.uniform("uHalfStep"), filter_->halfStep());
     glUniform1f(program.uniform("uWidth"), static_cast<float>(cubes.width));
     glUniform1f(program.uniform("uCapturedScale"),
                 fromFile ? cubes.captured.scale() * written_ : 1.0f);
@@ -185,8 +181,8 @@ void GpuProbes::compose(const plan::ProbeWork& work, const gl::Program& program,
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glDepthMask(GL_FALSE);
-    work.fade < 1.0f ? glEnable(GL_BLEND) : glDisable(GL_BLEND);
-    glBlendColor(0.0f, 0.0f, 0.0f, work.fade);
+    work.fadeLeft > 1 ? glEnable(GL_BLEND) : glDisable(GL_BLEND);
+    glBlendColor(0.0f, 0.0f, 0.0f, 1.0f / static_cast<float>(work.fadeLeft));
     glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
     fullScreen_.bind();
     for (int face = 0; face < 6; ++face) {
@@ -220,21 +216,26 @@ void GpuProbes::describe(gl::Device& device, const ProbeObserver& observer,
                          const plan::PlanInput& input) {
     const auto alignment = static_cast<std::size_t>(device.capabilities().uniformAlignment);
     stride_ = (sizeof(blocks::LodestarProbe) + alignment - 1) / alignment * alignment;
-    std::vector<blocks::LodestarProbe> blocks(input.probes.size() + 1);
-    for (std::size_t i = 0; i < input.probes.size(); ++i) {
-        const bool lights = i < cubes_.size() && cubes_[i].width > 0 && input.probes[i].influence;
-        if (lights) {
+    const std::size_t count = input.probes.size();
+    std::vector<blocks::LodestarProbe> blocks(2 * count + 1);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!input.probes[i].influence) {
+            continue;
+        }
+        blocks::LodestarProbe& block = blocks[i + 1];
+        block = blockOf(input.probes[i], observer.probe(i), observer.proxy(i));
+        if (i < cubes_.size() && cubes_[i].width > 0) {
             const Cubes& cubes = cubes_[i];
-            blocks::LodestarProbe& block = blocks[i + 1];
-            block = blockOf(input.probes[i], observer.probe(i), observer.proxy(i));
             block.capturedAt.w = static_cast<float>(cubes.width);
             block.light /= written_;
             block.light.w = static_cast<float>(cubes.lastLevel);
-            const glm::ivec2 tile = irradiance_.tile(cubes.tile);
-            block.tile = glm::vec4(glm::vec2(tile), 0.0f, 0.0f);
+            block.tile = glm::vec4(glm::vec2(irradiance_.tile(cubes.tile)), 0.0f, 0.0f);
         }
+        blocks[count + i + 1] = block;
+        blocks[count + i + 1].light = glm::vec4(0.0f);
     }
-    if (blocks == blocks_) {
+    if (blocks.size() == blocks_.size() &&
+        std::memcmp(blocks.data(), blocks_.data(), blocks.size() * sizeof blocks[0]) == 0) {
         return;
     }
     std::vector<std::byte> bytes(blocks.size() * stride_);
@@ -265,14 +266,16 @@ core::Image GpuProbes::read(std::size_t probe, int face, int level) const {
     return image;
 }
 
-void GpuProbes::bind(const std::array<int, 2>& probes) const {
+void GpuProbes::bind(const plan::ProbeChoice& choice) const {
     constexpr int kUnits[] = {kFirstProbeUnit, kSecondProbeUnit};
     constexpr unsigned kBindings[] = {kFirstProbeBinding, kSecondProbeBinding};
+    const std::size_t count = blocks_.size() / 2;
     for (std::size_t slot = 0; slot < 2; ++slot) {
-        const int probe = probes[slot];
-        const std::size_t block = static_cast<std::size_t>(probe + 1); // kNone is -1
+        const int probe = choice.probe[slot];
+        const std::size_t block =
+            static_cast<std::size_t>(probe + 1) + (choice.dark[slot] ? count : 0); // kNone is -1
         blockBuffer_.bindBlock(kBindings[slot], block * stride_, sizeof(blocks::LodestarProbe));
-        if (probe != plan::ProbeChoice::kNone) {
+        if (probe != plan::ProbeChoice::kNone && !choice.dark[slot]) {
             cubes_[static_cast<std::size_t>(probe)].lit.bind(kUnits[slot]);
         }
     }

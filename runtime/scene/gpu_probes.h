@@ -54,7 +54,7 @@ public:
     /// that is made; empty where it has none. Waits for the GPU.
     [[nodiscard]] core::Image read(std::size_t probe, int face, int level) const;
     /// Binds the two that hold a draw.
-    void bind(const std::array<int, 2>& probes) const;
+    void bind(const plan::ProbeChoice& choice) const;
 
 private:
     struct Cubes {
@@ -82,9 +82,10 @@ private:
     gl::IrradianceAtlas irradiance_;
     gl::CubeFaces faces_;
     gl::VertexArray fullScreen_;
-    std::map<int, Staging> staging_;            ///< by width
-    std::vector<Cubes> cubes_;                  ///< by probe
-    std::vector<blocks::LodestarProbe> blocks_; ///< the first is none's
+    std::map<int, Staging> staging_; ///< by width
+    std::vector<Cubes> cubes_;       ///< by probe
+    /// The first is none's; then each probe's, then each again without its light.
+    std::vector<blocks::LodestarProbe> blocks_;
     std::size_t stride_ = 0;
     gl::Buffer blockBuffer_;
 };

@@ -108,10 +108,13 @@ void SceneDrawer::drawBatch(const Pass& pass, const plan::Batch& batch,
         materials_.bind(primitive.material);
         gpu_.bindTextures(material);
     }
-    if (plan::has(features, plan::Feature::Probe) &&
-        state.probes != pass.choices[batch.first].probe) {
-        state.probes = pass.choices[batch.first].probe;
-        probes.bind(*state.probes);
+    if (plan::has(features, plan::Feature::Probe)) {
+        const plan::ProbeChoice& choice = pass.choices[batch.first];
+        if (state.probes == nullptr || state.probes->probe != choice.probe ||
+            state.probes->dark != choice.dark) {
+            state.probes = &choice;
+            probes.bind(choice);
+        }
     }
     const bool twoSided = material.doubleSided || primitive.topology != io::Topology::Triangles;
     if (state.twoSided != twoSided) {

@@ -3,7 +3,6 @@
 // Draws the batches of a plan: into the picture, a sun's depths, or a face of a light probe.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -67,7 +66,7 @@ private:
         plan::Features features = 0;
         const io::GltfMaterial* material = nullptr;
         const gl::VertexArray* vertices = nullptr;
-        std::optional<std::array<int, 2>> probes;
+        const plan::ProbeChoice* probes = nullptr; ///< bound
         std::optional<bool> twoSided, mirrored;
     };
 

@@ -2,6 +2,7 @@
 //
 // A texel of a light probe's level 0: what was captured, premultiplied by its coverage, before the
 // distant environment and the skies. Suns are no part of it: they light by themselves.
+#include "host/probe_half.glsl"
 #include "host/blocks.glsl"
 #include "lodestar/cube.glsl"
 #include "lodestar/power.glsl"
@@ -39,5 +40,5 @@ void main() {
     }
 #endif
     vec3 open = min(sky * written.x, vec3(written.y));
-    oRadiance = vec4(captured.rgb * uCapturedScale + (1.0 - captured.a) * open, 1.0);
+    oRadiance = nearestHalf(vec4(captured.rgb * uCapturedScale + (1.0 - captured.a) * open, 1.0));
 }

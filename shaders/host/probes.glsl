@@ -25,7 +25,9 @@ LodestarVolume volumeOf(vec4 x, vec4 y, vec4 z, vec4 extents, vec4 high, vec4 lo
     volumeOf(uProbe[k].proxyRows[0], uProbe[k].proxyRows[1], uProbe[k].proxyRows[2], \
              uProbe[k].proxyExtents, vec4(0.0), vec4(0.0))
 #define LODESTAR_PROBE_RADIANCE(k, surface, lookup, direction) \
-    probeRadiance(k + 1, surface, lookup, direction, uProbe[k].capturedAt.w, uProbe[k].light, uProbe[k].tile.xy)
+    probeRadiance(k + 1, surface, lookup, direction, \
+                  lodestar_footprintLevel(direction, dFdx(direction), dFdy(direction), max(uProbe[k].capturedAt.w, 1.0)), \
+                  uProbe[k].capturedAt.w, uProbe[k].light, uProbe[k].tile.xy)
 
 LodestarShares probeShares() {
     float first = uProbe[0].influenceExtents.x > 0.0 ? lodestar_volumeWeight(LODESTAR_INFLUENCE(0), vPosition) : 0.0;
@@ -44,14 +46,17 @@ vec3 towards(LodestarVolume proxy, vec3 captured, vec3 direction) {
 
 /// What a probe's light gives back towards the viewer.
 /// @param direction of the lookup, corrected for parallax
-vec3 probeRadiance(int slot, LodestarSurface surface, LodestarLookup lookup, vec3 direction, float width,
-                   vec4 light, vec2 tile) {
+/// @param footprint the pixel's level there
+vec3 probeRadiance(int slot, LodestarSurface surface, LodestarLookup lookup, vec3 direction, float footprint,
+                   float width, vec4 light, vec2 tile) {
+    if (width <= 0.0 || dot(light.rgb, vec3(1.0)) <= 0.0) {
+        return vec3(0.0); // it holds nothing, or keeps the sky out alone
+    }
     LodestarCube cube;
     cube.slot = slot;
     cube.width = width;
     cube.maxLevel = light.w;
     cube.leastLevel = 0.0;
-    float footprint = lodestar_footprintLevel(direction, dFdx(direction), dFdy(direction), width);
     vec3 glossy = lodestar_specularTent(cube, direction, lookup.exponent, footprint);
     vec2 at = (tile + lodestar_irradianceTexel(surface.normal)) / vec2(textureSize(uProbeIrradiance, 0));
     vec3 lambert = textureLod(uProbeIrradiance, at, 0.0).rgb;

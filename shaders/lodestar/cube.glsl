@@ -171,6 +171,86 @@ LODESTAR_FN Real lodestar_texelSolidAngle(Real width, Real i, Real j) {
     return 4.0f / (width * width) * r * r * r;
 }
 
+/// Solid angle of a small square about face coordinates over its area: (1 + u^2 + v^2)^(-3/2) on the
+/// face, beyond its edges that of the neighbouring face there.
+LODESTAR_FN Real lodestar_texelDensity(Real u, Real v) {
+    Real m = max(max(abs(u), abs(v)), Real(1.0f));
+    Real r = m * inversesqrt(1.0f + u * u + v * v);
+    return r * r * r;
+}
+
+/// Solid angle of a texel over its area: that at Gauss's two by two points, within 1e-3 at 2 texels.
+LODESTAR_FN Real lodestar_meanTexelDensity(Real u, Real v, Real width) {
+    Real reach = LODESTAR_LITERAL(0.57735027) / width;
+    return LODESTAR_LITERAL(0.25) *
+           (lodestar_texelDensity(u - reach, v - reach) + lodestar_texelDensity(u + reach, v - reach) +
+            lodestar_texelDensity(u - reach, v + reach) + lodestar_texelDensity(u + reach, v + reach));
+}
+
+/// The mean of that over the four fetches of a tent about a point, of a finer level's faces: what
+/// the tent takes of that level.
+LODESTAR_FN Real lodestar_tentDensity(Real u, Real v, Real finerWidth) {
+    Real reach = LODESTAR_LITERAL(1.5) / finerWidth; // three quarters of the finer level's pitch
+    return LODESTAR_LITERAL(0.25) *
+           (lodestar_texelDensity(u - reach, v - reach) + lodestar_texelDensity(u + reach, v - reach) +
+            lodestar_texelDensity(u - reach, v + reach) + lodestar_texelDensity(u + reach, v + reach));
+}
+
+/// The exponent of the lobe whose mean a texel of a round coarse level holds, so that read
+/// bilinearly it is the lobe wanted (MIP-12).
+/// @param exponent Phong, >= 0, of the lobe that the level is read for
+/// @param hat spread of the texel and of what it is read from, W (1/6 + 1/4 (n / n_read)^2)
+LODESTAR_FN Real lodestar_roundExponent(Real exponent, Real hat) {
+    Real spread = 1.0f / (exponent + 2.0f) - LODESTAR_LITERAL(0.6) * hat;
+    return spread > LODESTAR_LITERAL(1e-7) ? max(1.0f / spread - 2.0f, Real(0.0f)) : LODESTAR_LITERAL(1e7);
+}
+
+/// A direction on the octahedron |x| + |y| + |z| = 1 laid flat: +Y in the middle, -Y at the corners.
+/// @param d unit  @return [-1, 1]^2
+LODESTAR_FN vec2 lodestar_octahedral(vec3 d) {
+    Real sum = abs(d.x) + abs(d.y) + abs(d.z);
+    Real scale = 1.0f / max(sum, LODESTAR_LITERAL(1e-30));
+    Real x = d.x * scale;
+    Real z = d.z * scale;
+    if (d.y < 0.0f) {
+        Real folded = (1.0f - abs(z)) * (x < 0.0f ? -1.0f : 1.0f);
+        z = (1.0f - abs(x)) * (z < 0.0f ? -1.0f : 1.0f);
+        x = folded;
+    }
+    return vec2(x, z);
+}
+
+/// The direction, not unit, of a point of that square; a point a little beyond its sides is where one
+/// comes out that walks over the side.
+LODESTAR_FN vec3 lodestar_octahedralDirection(vec2 p) {
+    Real x = p.x;
+    Real z = p.y;
+    if (abs(x) > 1.0f) {
+        x = (x < 0.0f ? -2.0f : 2.0f) - x;
+        z = -z;
+    }
+    if (abs(z) > 1.0f) {
+        z = (z < 0.0f ? -2.0f : 2.0f) - z;
+        x = -x;
+    }
+    Real y = 1.0f - abs(x) - abs(z);
+    if (y < 0.0f) {
+        Real folded = (1.0f - abs(z)) * (x < 0.0f ? -1.0f : 1.0f);
+        z = (1.0f - abs(x)) * (z < 0.0f ? -1.0f : 1.0f);
+        x = folded;
+    }
+    return vec3(x, y, z);
+}
+
+/// Texels of a side of a tile that holds a light probe's irradiance, without the border of one.
+LODESTAR_CONST Real LODESTAR_TILE_TEXELS = LODESTAR_LITERAL(16.0);
+
+/// Where a normal lies in such a tile, in texels from the border's corner.
+LODESTAR_FN vec2 lodestar_irradianceTexel(vec3 normal) {
+    vec2 p = lodestar_octahedral(normal);
+    return vec2((p.x * 0.5f + 0.5f) * LODESTAR_TILE_TEXELS + 1.0f, (p.y * 0.5f + 0.5f) * LODESTAR_TILE_TEXELS + 1.0f);
+}
+
 LODESTAR_END
 
 #endif

@@ -256,7 +256,7 @@ TEST_F(AbiEnvironment, ACaptureIsJobsForTheHost) {
         ASSERT_EQ(api.lambert(context, up, rgb), LODESTAR_OK);
         EXPECT_EQ(rgb[1], 0.0) << "never half updated";
         const LodestarPlan plan = planned(2);
-        EXPECT_NE(text(plan).find("probe-capture 'lobby': 2 of"), std::string::npos) << text(plan);
+        EXPECT_NE(text(plan).find("Probe 'lobby': 2 of"), std::string::npos) << text(plan);
         LodestarWork work{};
         work.struct_size = sizeof work;
         ASSERT_EQ(api.plan_work(context, plan, &work), LODESTAR_OK);

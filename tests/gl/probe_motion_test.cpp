@@ -70,16 +70,21 @@ double mean(const core::Image& image) {
     return sum / 3.0 / (static_cast<double>(image.pixels().size()) / 4.0);
 }
 
-/// A yard of walls, open above, with a ball and a column.
+/// A yard of walls, open above, with a ball and a column. @param reflectance 0: takes no light
 ProbeWorld yard(float reflectance) {
     ProbeWorld world;
-    const io::GltfMaterial stone = blinnPhong(glm::vec3(reflectance), glm::vec3(0.0f), 0.0f);
+    io::GltfMaterial stone = blinnPhong(glm::vec3(reflectance), glm::vec3(0.0f), 0.0f);
+    io::GltfMaterial metal = blinnPhong(glm::vec3(0.5f), glm::vec3(0.5f), 40.0f);
+    for (io::GltfMaterial* material : {&stone, &metal}) {
+        material->unlit = reflectance == 0.0f;
+        material->baseColor = glm::vec4(glm::vec3(reflectance), 1.0f);
+    }
     world.box("ground", {-6, -0.2f, -6}, {6, 0, 6}, stone);
     world.box("east", {5.5f, 0, -6}, {6, 4, 6}, stone);
     world.box("west", {-6, 0, -6}, {-5.5f, 3, 6}, stone);
     world.box("north", {-6, 0, -6}, {6, 5, -5.5f}, stone);
     world.box("column", {2, 0, -2}, {2.6f, 4, -1.4f}, stone);
-    world.ball("ball", {0, 1, 0}, 0.7f, blinnPhong(glm::vec3(0.5f), glm::vec3(0.5f), 40.0f));
+    world.ball("ball", {0, 1, 0}, 0.7f, metal);
     return world;
 }
 
@@ -103,8 +108,12 @@ lighting::DayLight dusk() {
 // any hour, though nothing is drawn again.
 TEST_F(ProbeMotion, AComposedSkyIsWhatACameraSees) {
     ProbeWorld world = yard(0.0f);
+    // Something that takes light, inside the view and under the ground.
+    world.ball("witness", {0, -0.6f, 0}, 0.1f,
+               blinnPhong(glm::vec3(0.5f), glm::vec3(0.1f), 30.0f), 2);
     lighting::Probe& probe = world.probe("yard", {0, 2.2, 2.5}, {12, 8, 12}, 0.5);
     probe.capture.resolution = 64;
+    probe.capture.layers = 1;
     const scene::Scene scene = world.make();
     auto renderer = rendererOf(scene);
     renderer->setLights({dusk()});

@@ -352,8 +352,8 @@ TEST(Plan, CapturesShareTheBudget) {
                          "attic: it shows what it has captured, and nothing asks for it anew",
                          "cellar: 1 of 6 missing faces: it shows nothing yet",
                          "tower: 1 face is missing, and the frame has no face left"}));
-    EXPECT_NE(planText(result).find("probe-capture 'attic': skipped: it shows"), std::string::npos);
-    EXPECT_NE(planText(result).find("probe-capture 'lobby': 3 of 3"), std::string::npos);
+    EXPECT_NE(planText(result).find("Probe 'attic': skipped: it shows"), std::string::npos);
+    EXPECT_NE(planText(result).find("Probe 'lobby': 3 of 3"), std::string::npos);
 }
 
 TEST(Plan, MirrorsAloneReadTheGradients) {

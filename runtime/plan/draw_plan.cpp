@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "plan/draw_plan.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace lodestar::plan {
+namespace {
+
+/// The probes of a draw, and which of them give no light.
+using Pair = std::pair<std::array<int, 2>, std::array<bool, 2>>;
+
+constexpr Pair kNoProbes{{ProbeChoice::kNone, ProbeChoice::kNone}, {}};
+
+Pair pairOf(const std::vector<ProbeChoice>& choices, std::size_t draw) {
+    return choices.empty() ? kNoProbes : Pair{choices[draw].probe, choices[draw].dark};
+}
+
+auto sharing(const DrawView& draw, const Pair& probes) {
+    return std::tuple(draw.features, probes, draw.material, draw.geometry, draw.mirrored);
+}
+
+/// What every lit draw's shader reads.
+Features lightFeatures(const PlanInput& input, const EffectPlan& result) {
+    Features features = input.environment.present ? bit(Feature::Environment) : 0u;
+    features |= result.rsrmLights.empty() ? 0u : bit(Feature::RsrmLights);
+    features |= result.shadowedLights() > 0 ? bit(Feature::Shadows) : 0u;
+    features |= input.lightCount > 0 ? bit(Feature::PunctualLights) : 0u;
+    return features;
+}
+
+Features probeFeatures(const ProbeChoice& choice) {
+    const bool any = choice.probe[0] != ProbeChoice::kNone || choice.open < 1.0f;
+    return (any ? bit(Feature::Probe) : 0u) |
+           (choice.probe[1] != ProbeChoice::kNone ? bit(Feature::SecondProbe) : 0u);
+}
+
+Features featuresOf(const PlanInput& input, const DrawView& draw, Features lights,
+                    const ProbeChoice& choice) {
+    if (!draw.lit) {
+        return draw.features;
+    }
+    Features features = draw.features | lights | probeFeatures(choice);
+    if (has(features, Feature::RsrmLights) && !input.rsrmPublished &&
+        draw.sharpest > input.rsrmGreatestExponent) {
+        features |= bit(Feature::RsrmMirror);
+    }
+    return features;
+}
+
+/// Opaque draws by what they share, then blended ones, the farthest first.
+/// @param distance of a draw
+template <class Distance>
+void sortForDrawing(const PlanInput& input, const std::vector<ProbeChoice>& choices,
+                    const Distance& distance, std::vector<std::size_t>& order) {
+    const auto blended = std::stable_partition(
+        order.begin(), order.end(), [&](std::size_t i) { return !input.draws[i].blended; });
+    std::vector<std::size_t> opaque(order.begin(), blended);
+    sortByShared(input, choices, opaque);
+    std::copy(opaque.begin(), opaque.end(), order.begin());
+    std::stable_sort(blended, order.end(), [&](std::size_t a, std::size_t b) {
+        return distance(input.draws[a]) > distance(input.draws[b]);
+    });
+}
+
+/// An effect for each draw; the call to the driver is the first's of its batch.
+void describeDraws(const PlanInput& input, EffectPlan& result) {
+    std::vector<std::size_t> leader(input.draws.size());
+    for (const Batch& batch : result.batches) {
+        for (std::size_t i = 0; i < batch.count; ++i) {
+            leader[result.drawOrder[batch.first + i]] = result.drawOrder[batch.first];
+        }
+    }
+    result.effects.reserve(result.effects.size() + input.draws.size() + 2);
+    for (std::size_t i = 0; i < input.draws.size(); ++i) {
+        const DrawView& draw = input.draws[i];
+        Effect effect{"draw", draw.subject, Decision::Skip, "outside the view", {}};
+        if (draw.visible) {
+            effect.decision = Decision::Run;
+            effect.reason = leader[i] == i ? "inside the view"
+                                           : "inside the view, in one call with '" +
+                                                 input.draws[leader[i]].subject + "'";
+            effect.cost.draws = leader[i] == i ? 1 : 0;
+        }
+        result.effects.push_back(std::move(effect));
+    }
+}
+
+float farness(const DrawView& draw, const glm::vec3& from) {
+    return glm::length(0.5f * (draw.low + draw.high) - from);
+}
+
+} // namespace
+
+void sortByShared(const PlanInput& input, const std::vector<ProbeChoice>& choices,
+                  std::vector<std::size_t>& order) {
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return sharing(input.draws[a], pairOf(choices, a)) <
+               sharing(input.draws[b], pairOf(choices, b));
+    });
+}
+
+std::vector<Batch> batchesOf(const PlanInput& input, const std::vector<ProbeChoice>& choices,
+                             const std::vector<std::size_t>& order, std::size_t before) {
+    std::vector<Batch> batches;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const bool newPage = (before + i) % input.instancesPerPage == 0;
+        if (i > 0 && !newPage &&
+            sharing(input.draws[order[i]], pairOf(choices, order[i])) ==
+                sharing(input.draws[order[i - 1]], pairOf(choices, order[i - 1]))) {
+            ++batches.back().count;
+        } else {
+            batches.push_back({i, 1, input.draws[order[i]].mirrored});
+        }
+    }
+    return batches;
+}
+
+void planDraws(const PlanInput& input, const std::vector<ProbeChoice>& choices,
+               EffectPlan& result) {
+    for (std::size_t i = 0; i < input.draws.size(); ++i) {
+        if (input.draws[i].visible) {
+            result.drawOrder.push_back(i);
+        }
+    }
+    sortForDrawing(
+        input, choices, [](const DrawView& draw) { return draw.distance; }, result.drawOrder);
+    result.batches = batchesOf(input, choices, result.drawOrder, 0);
+    const Features lights = lightFeatures(input, result);
+    for (const std::size_t index : result.drawOrder) {
+        const ProbeChoice choice = choices.empty() ? ProbeChoice{} : choices[index];
+        result.drawFeatures.push_back(featuresOf(input, input.draws[index], lights, choice));
+        if (!choices.empty()) {
+            result.drawChoices.push_back(choice);
+        }
+    }
+    describeDraws(input, result);
+}
+
+void planFaces(const PlanInput& input, const ProbeIndex& index, EffectPlan& result) {
+    const Features lights = lightFeatures(input, result);
+    std::size_t before = result.drawOrder.size() + result.casters.size();
+    const std::vector<bool> ready =
+        readyProbes(input); // what this frame makes comes after its faces
+    std::vector<ProbeChoice> choices(result.probeFaces.empty() ? 0 : input.draws.size());
+    for (ProbeFace& face : result.probeFaces) {
+        for (const std::size_t draw : face.drawOrder) {
+            const DrawView& view = input.draws[draw];
+            choices[draw] =
+                view.lit ? index.choose(view.low, view.high, ready, static_cast<int>(face.probe))
+                         : ProbeChoice{};
+        }
+        const glm::vec3 from = input.probes[face.probe].position;
+        sortForDrawing(
+            input, choices, [&](const DrawView& draw) { return farness(draw, from); },
+            face.drawOrder);
+        face.batches = batchesOf(input, choices, face.drawOrder, before);
+        before += face.drawOrder.size();
+        for (const std::size_t draw : face.drawOrder) {
+            face.choices.push_back(choices[draw]);
+            face.drawFeatures.push_back(
+                featuresOf(input, input.draws[draw], lights, choices[draw]));
+        }
+    }
+}
+
+} // namespace lodestar::plan

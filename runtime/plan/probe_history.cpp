@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "plan/probe_history.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "plan/effect_plan.h"
+
+namespace lodestar::plan {
+namespace {
+
+bool any(const std::array<bool, 6>& faces) {
+    return std::find(faces.begin(), faces.end(), true) != faces.end();
+}
+
+void mark(ProbeHistory& history, std::size_t face) {
+    (history.drawn[face] ? history.again : history.stale)[face] = true;
+}
+
+void markAll(ProbeHistory& history, std::string because) {
+    history.because = std::move(because);
+    for (std::size_t face = 0; face < 6; ++face) {
+        mark(history, face);
+    }
+}
+
+double lengthOf(const std::array<glm::dvec3, 3>& rows) {
+    return std::sqrt(glm::dot(rows[0], rows[0]) + glm::dot(rows[1], rows[1]) +
+                     glm::dot(rows[2], rows[2]));
+}
+
+std::string percent(double share) {
+    return std::isfinite(share) ? std::to_string(std::lround(100.0 * share)) + " %"
+                                : std::string("from darkness");
+}
+
+/// Marks the faces that see what has moved.
+void markMoved(ProbeHistory& history, const ProbeView& view, std::span<const Moved> moved) {
+    const bool fresh = !any(history.stale);
+    unsigned marked = 0;
+    int count = 0;
+    double fastest = 0.0;
+    std::string name;
+    for (const Moved& thing : moved) {
+        const unsigned faces = lighting::facesSeeing(view.position, view.capture.nearPlane,
+                                                     view.capture.farPlane, thing.low, thing.high);
+        if (faces == 0) {
+            continue;
+        }
+        ++count;
+        if (name.empty() || thing.speed > fastest) {
+            name = thing.subject;
+            fastest = std::max(fastest, thing.speed);
+        }
+        marked |= faces;
+        if (marked == 0x3fu && count > 1) {
+            break; // no more to be learnt
+        }
+    }
+    for (std::size_t face = 0; face < 6; ++face) {
+        if ((marked >> face & 1u) != 0) {
+            mark(history, face);
+        }
+    }
+    if (count > 0) {
+        history.speed = std::max(history.speed, fastest);
+        if (fresh) {
+            history.because = count == 1 ? name + " moved" : name + " and others moved";
+        }
+    }
+}
+
+/// The faces of the round show from here on.
+void publish(ProbeHistory& history) {
+    const bool whole =
+        std::find(history.drawn.begin(), history.drawn.end(), false) == history.drawn.end();
+    if (whole) { // of a part, the others still show the light before
+        history.capturedUnder = history.drawingUnder;
+    }
+    history.stale = history.again;
+    history.again.fill(false);
+    history.drawn.fill(false);
+    history.drawnFor = 0;
+    history.sinceCapture = 0;
+    history.speed = 0.0;
+    if (any(history.stale)) {
+        history.because = "what it sees went on moving";
+    }
+}
+
+void markChanges(ProbeHistory& history, const ProbeView& view, std::span<const Moved> moved,
+                 double lightThreshold) {
+    using lighting::ProbeUpdate;
+    const bool resting = !any(history.stale) && !any(history.drawn);
+    if (history.requested) {
+        markAll(history, "it is asked for");
+        history.requested = false;
+    } else if (!history.ready || view.update == ProbeUpdate::OnChange) {
+        if (history.ready && history.position != view.position) {
+            markAll(history, "it moved itself");
+        } else if (resting && view.lightChange > lightThreshold) {
+            markAll(history, "its light has changed by " + percent(view.lightChange));
+        }
+        markMoved(history, view, moved);
+    } else if (resting && view.update == ProbeUpdate::Always) {
+        markAll(history, "it is captured always");
+    } else if (resting && view.update == ProbeUpdate::Every && history.sinceCapture >= view.every) {
+        markAll(history, "it is captured every " + std::to_string(view.every) + " frames");
+    }
+}
+
+} // namespace
+
+double lightChange(const LightState& then, const LightState& now) {
+    double change = 0.0;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < std::max(then.sources.size(), now.sources.size()); ++i) {
+        const std::array<glm::dvec3, 3> none{};
+        const auto& a = i < then.sources.size() ? then.sources[i] : none;
+        const auto& b = i < now.sources.size() ? now.sources[i] : none;
+        change += lengthOf({a[0] - b[0], a[1] - b[1], a[2] - b[2]});
+        sum += lengthOf(a);
+    }
+    if (!(change > 0.0)) {
+        return 0.0;
+    }
+    return sum > 0.0 ? change / sum : std::numeric_limits<double>::infinity();
+}
+
+void observe(ProbeHistory& history, ProbeView& view, std::span<const Moved> moved,
+             const LightState& light, double lightThreshold) {
+    using lighting::ProbeUpdate;
+    ++history.sinceCapture;
+    view.lightChange = history.ready ? lightChange(history.capturedUnder, light) : 0.0;
+    if (!view.fromFile && view.influence) {
+        markChanges(history, view, moved, lightThreshold);
+    }
+    history.position = view.position;
+    view.skyChanged = !history.ready || history.composedUnder != light.sky;
+    view.ready = history.ready;
+    view.stale = view.fromFile ? std::array<bool, 6>{} : history.stale;
+    view.drawn = history.drawn;
+    view.because = history.because;
+    view.waiting = any(view.stale) ? history.waiting : 0;
+    view.speed = history.speed;
+    view.fadeLeft = history.fadeLeft;
+    view.drawnFor = history.drawnFor;
+}
+
+void executed(ProbeHistory& history, std::size_t probe, const EffectPlan& plan,
+              const LightState& light) {
+    bool faces = false;
+    for (const ProbeFace& face : plan.probeFaces) {
+        if (face.probe == probe) {
+            if (!any(history.drawn)) {
+                history.drawingUnder = light;
+            }
+            history.stale[static_cast<std::size_t>(face.face)] = false;
+            history.drawn[static_cast<std::size_t>(face.face)] = true;
+            faces = true;
+        }
+    }
+    history.drawnFor = any(history.drawn) ? history.drawnFor + 1 : 0;
+    history.waiting = any(history.stale) && !faces ? history.waiting + 1 : 0;
+    for (const ProbeWork& work : plan.probeWork) {
+        if (work.probe != probe) {
+            continue;
+        }
+        if (work.publish) {
+            publish(history);
+        }
+        if (work.compose) {
+            history.ready = true;
+            history.composedUnder = light.sky;
+            history.fadeLeft = work.fadeLeft - 1;
+        }
+    }
+}
+
+} // namespace lodestar::plan
