@@ -228,7 +228,7 @@ core::Result<Json> checkDocument(const std::string& file) {
     for (const auto& [name, material] : document->materials) {
         json["materials"].push_back(name);
     }
-    json["probes"] = document->probes.empty() ? 0U : Json::parse(document->probes).size();
+    json["probes"] = document->probes.size();
     json["warnings"] = warningsJson(warnings);
     return json;
 }

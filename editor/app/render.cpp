@@ -27,8 +27,8 @@ struct RenderOptions {
     double exposure = 0.0; ///< EV
     int samples = 0;       ///< a pixel; 0: 4 for PNG, 1 for EXR
     int frames = 1;
-    double fps = 0.0; ///< 0: not given, all frames show one time
-    double hoursPerSecond = 0.0;
+    double fps = 0.0;            ///< 0: not given, all frames show one time
+    double hoursPerSecond = 0.0; ///< with fps
 };
 
 enum class OutputKind { Png, Exr };
@@ -197,7 +197,7 @@ void addRender(CLI::App& app, int& status) {
                      "Frame I shows the animation (default: the first) at --time + I/FPS seconds")
         ->check(CLI::Range(1e-3, 1e6));
     command
-        ->add_option("--hours-per-second", options.hoursPerSecond,
+        ->add_option("--hours-per-second", options->hoursPerSecond,
                      "With --fps, by how many hours the day goes on in a second of the animation")
         ->check(CLI::Range(-24.0, 24.0));
     command->add_option("--stats", options->stats, "Write the plan, counters and times as JSON");

@@ -15,6 +15,7 @@
 #include "core/result.h"
 #include "core/tally.h"
 #include "lighting/day.h"
+#include "lighting/probe.h"
 
 namespace lodestar::document {
 
@@ -76,10 +77,16 @@ struct Material {
     Unknown unknown;
 };
 
+/// A light probe, and what of its objects no version knows.
+struct Probe {
+    lighting::Probe probe;
+    Unknown unknown, captureUnknown, updateUnknown, influenceUnknown, proxyUnknown;
+};
+
 struct Document {
     std::optional<Environment> environment;
     std::vector<Light> lights;
-    std::string probes; ///< the JSON text of an array, kept as it is; empty if there is none
+    std::vector<Probe> probes;
     std::map<std::string, Material> materials; ///< by glTF name or "#index"
     Unknown unknown;
 };

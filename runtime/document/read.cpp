@@ -7,6 +7,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "document/document.h"
+#include "document/probe_text.h"
 #include "document/reader.h"
 #include "lighting/estimator.h"
 
@@ -216,10 +217,7 @@ Document readDocument(const Reader& reader) {
         lights->forEach([&](const Reader& light) { document.lights.push_back(readLight(light)); });
     }
     if (const auto probes = reader.member("probes")) {
-        if (!probes->json().is_array()) {
-            probes->refuse("an array is needed");
-        }
-        document.probes = probes->json().dump();
+        probes->forEach([&](const Reader& probe) { document.probes.push_back(readProbe(probe)); });
     }
     if (const auto materials = reader.member("materials"); materials && materials->isObject()) {
         for (const auto& [name, value] : materials->json().items()) {
@@ -253,8 +251,10 @@ core::Result<Document> parseDocument(std::string_view text, core::Tally& warning
     if (const auto lights = dayLights(document, warnings); !lights) {
         return lights.error();
     }
-    if (!document.probes.empty() && document.probes != "[]") {
-        warnings.add("probes of the document are kept but light nothing yet");
+    for (const Probe& probe : document.probes) {
+        const glm::dvec3& size = probe.probe.influence.size;
+        warnings.add("light probe without an inside, lights nothing",
+                     size.x > 0.0 && size.y > 0.0 && size.z > 0.0 ? 0 : 1);
     }
     return document;
 }

@@ -7,6 +7,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "document/document.h"
+#include "document/probe_text.h"
 #include "document/reader.h"
 
 namespace lodestar::document {
@@ -29,20 +30,6 @@ double degrees(double radians) {
 
 Json toJson(const glm::dvec3& v) {
     return Json::array({finite(v.x), finite(v.y), finite(v.z)});
-}
-
-void addUnknown(Json& object, const Unknown& unknown) {
-    if (unknown.empty()) {
-        return;
-    }
-    const Json rest = Json::parse(unknown, nullptr, false);
-    if (rest.is_object()) {
-        for (const auto& [name, value] : rest.items()) {
-            if (!object.contains(name)) {
-                object[name] = value;
-            }
-        }
-    }
 }
 
 Json toJson(const Gradient& gradient) {
@@ -138,6 +125,20 @@ Json toJson(const Material& material) {
 
 } // namespace
 
+void addUnknown(Json& object, const Unknown& unknown) {
+    if (unknown.empty()) {
+        return;
+    }
+    const Json rest = Json::parse(unknown, nullptr, false);
+    if (rest.is_object()) {
+        for (const auto& [name, value] : rest.items()) {
+            if (!object.contains(name)) {
+                object[name] = value;
+            }
+        }
+    }
+}
+
 std::string writeDocument(const Document& document) {
     Json object;
     object["lodestar"] = kVersion;
@@ -149,7 +150,10 @@ std::string writeDocument(const Document& document) {
         object["lights"].push_back(toJson(light));
     }
     if (!document.probes.empty()) {
-        object["probes"] = Json::parse(document.probes, nullptr, false);
+        object["probes"] = Json::array();
+        for (const Probe& probe : document.probes) {
+            object["probes"].push_back(toJson(probe));
+        }
     }
     if (!document.materials.empty()) {
         object["materials"] = Json::object();

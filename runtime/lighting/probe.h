@@ -22,7 +22,7 @@ enum class VolumeShape { Box, Sphere };
 struct ProbeVolume {
     VolumeShape shape = VolumeShape::Box;
     glm::dvec3 center{0.0};
-    glm::dvec3 size{2.0}; ///< full extents; a sphere's diameter in x, y and z
+    glm::dvec3 size{10.0}; ///< full extents; a sphere's diameter in x, y and z
     /// Over how many metres the weight falls to 0, at +X, -X, +Y, -Y, +Z, -Z; a sphere's in the
     /// first. Inside the volume's faces, but outside those of an interior.
     std::array<double, 6> blend{};

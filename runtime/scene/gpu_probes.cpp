@@ -162,7 +162,8 @@ void GpuProbes::endFace(const plan::ProbeFace& face) {
     ++device_->counters().probeFaces;
 }
 
-void GpuProbes::publish(Cubes& cubes) {
+void GpuProbes::publish(std::size_t probe) {
+    Cubes& cubes = cubes_[probe];
     for (int face = 0; face < 6; ++face) {
         if (std::exchange(cubes.staged[static_cast<std::size_t>(face)], false)) {
             faces_.copy(staging_.at(cubes.width).faces, cubes.captured, face);
@@ -197,9 +198,6 @@ void GpuProbes::work(const plan::EffectPlan& plan, const Programs& programs,
                      const ProbeObserver& observer) {
     for (const plan::ProbeWork& work : plan.probeWork) {
         Cubes& cubes = cubes_[work.probe];
-        if (work.publish) {
-            publish(cubes);
-        }
         if (work.compose) {
             compose(work, programs.composition(plan),
                     observer.component(work.probe).map != nullptr);

@@ -43,7 +43,10 @@ public:
     /// Begins a face's pass; the caller draws, then ends it.
     void beginFace(const plan::ProbeFace& face);
     void endFace(const plan::ProbeFace& face);
-    /// Publishes, composes and filters as the plan says. @pre the environment, the lights and the
+    /// The faces drawn since the last take the place of the captured ones: before another probe's
+    /// are drawn.
+    void publish(std::size_t probe);
+    /// Composes and filters as the plan says. @pre the environment, the lights and the
     /// frame's blocks are bound
     void work(const plan::EffectPlan& plan, const Programs& programs,
               const ProbeObserver& observer);
@@ -73,7 +76,6 @@ private:
     [[nodiscard]] static core::Result<Cubes>
     makeCubes(gl::Device& device, const ProbeComponent& component, core::Tally& warnings);
     [[nodiscard]] core::Result<void> prepareStaging(gl::Device& device, int width);
-    void publish(Cubes& cubes);
     void compose(const plan::ProbeWork& work, const gl::Program& program, bool fromFile);
 
     gl::Device* device_ = nullptr;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "scene/draw_list.h"
 
 namespace lodestar::scene {
@@ -50,19 +52,24 @@ const lighting::Probe& ProbeObserver::probe(std::size_t index) const {
     return component(index).probe;
 }
 
+/// The frame of a probe: its node's, moved to where it captures.
+glm::mat4 ProbeObserver::worldFromProbe(std::size_t index) const {
+    return glm::translate(scene_.nodes[places_[index].node].worldFromNode,
+                          glm::vec3(probe(index).position));
+}
+
 std::optional<lighting::PlacedVolume> ProbeObserver::proxy(std::size_t index) const {
     const std::optional<lighting::ProbeVolume>& proxy = probe(index).proxy;
-    return proxy ? lighting::place(*proxy, scene_.nodes[places_[index].node].worldFromNode, false)
-                 : std::nullopt;
+    return proxy ? lighting::place(*proxy, worldFromProbe(index), false) : std::nullopt;
 }
 
 plan::ProbeView ProbeObserver::view(std::size_t index) const {
     const lighting::Probe& probe = this->probe(index);
-    const glm::mat4& world = scene_.nodes[places_[index].node].worldFromNode;
+    const glm::mat4 world = worldFromProbe(index);
     plan::ProbeView view;
     view.subject = probe.name;
     view.influence = lighting::place(probe.influence, world, !probe.exterior);
-    view.position = glm::vec3(world * glm::vec4(glm::vec3(probe.position), 1.0f));
+    view.position = glm::vec3(world[3]);
     view.capture = probe.capture;
     view.update = probe.update;
     view.every = probe.every;

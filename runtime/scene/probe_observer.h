@@ -48,6 +48,7 @@ private:
         bool operator==(const Box&) const = default;
     };
 
+    [[nodiscard]] glm::mat4 worldFromProbe(std::size_t index) const;
     [[nodiscard]] plan::ProbeView view(std::size_t index) const;
     [[nodiscard]] std::vector<plan::Moved> moved(const plan::PlanInput& input);
     void addMovedLights(std::vector<plan::Moved>& moved);

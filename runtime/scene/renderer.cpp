@@ -158,6 +158,13 @@ blocks::LodestarFrame Renderer::State::frameBlockFor(const RenderSettings& setti
     return block;
 }
 
+bool publishes(const plan::EffectPlan& plan, std::size_t probe) {
+    return std::any_of(plan.probeWork.begin(), plan.probeWork.end(),
+                       [&](const plan::ProbeWork& work) {
+                           return work.probe == probe && work.publish;
+                       });
+}
+
 /// The faces that the plan draws, and what it makes of them.
 core::Result<void> Renderer::State::drawProbes(const plan::EffectPlan& plan,
                                                const RenderSettings& settings,
@@ -180,6 +187,11 @@ core::Result<void> Renderer::State::drawProbes(const plan::EffectPlan& plan,
         bindLight(settings, block);
         drawer.drawFace(plan, i, settings, probes);
         probes.endFace(face);
+        const bool last = i + 1 == plan.probeFaces.size() ||
+                          plan.probeFaces[i + 1].probe != face.probe;
+        if (last && publishes(plan, face.probe)) {
+            probes.publish(face.probe);
+        }
     }
     if (!plan.probeWork.empty()) {
         blocks::LodestarFrame block = frameBlockFor(settings, glm::vec4(0.0f));

@@ -85,18 +85,19 @@ Json& GltfWriter::material(int index) {
     return root_["materials"][static_cast<std::size_t>(index)];
 }
 
-int GltfWriter::addAccessor(const void* data, std::size_t count, int components,
-                            int componentType) {
+int GltfWriter::addAccessor(const void* data, std::size_t count, int components, int componentType,
+                            bool vertices) {
     static const char* const kTypes[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
     const std::size_t size = count * static_cast<std::size_t>(components) * 4;
     const std::size_t offset = bytes_.size();
     bytes_.resize(offset + size);
     std::memcpy(bytes_.data() + offset, data, size);
     const bool indices = componentType == kUnsignedInt;
-    root_["bufferViews"].push_back({{"buffer", 0},
-                                    {"byteOffset", offset},
-                                    {"byteLength", size},
-                                    {"target", indices ? kElementArrayBuffer : kArrayBuffer}});
+    Json view{{"buffer", 0}, {"byteOffset", offset}, {"byteLength", size}};
+    if (vertices) {
+        view["target"] = indices ? kElementArrayBuffer : kArrayBuffer;
+    }
+    root_["bufferViews"].push_back(view);
     root_["accessors"].push_back({{"bufferView", root_["bufferViews"].size() - 1},
                                   {"componentType", componentType},
                                   {"count", count},
@@ -165,12 +166,15 @@ int GltfWriter::addNode(const std::string& name, int mesh, const glm::vec3& posi
     return index;
 }
 
-int GltfWriter::addCamera(const std::string& name, const glm::vec3& eye, const glm::vec3& target,
-                          float fovDegrees) {
+glm::quat lookRotation(const glm::vec3& eye, const glm::vec3& target) {
     const glm::vec3 back = glm::normalize(eye - target); // a camera looks along its -Z
     const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0.0f, 1.0f, 0.0f), back));
-    const glm::quat rotation =
-        glm::normalize(glm::quat_cast(glm::mat3(right, glm::cross(back, right), back)));
+    return glm::normalize(glm::quat_cast(glm::mat3(right, glm::cross(back, right), back)));
+}
+
+int GltfWriter::addCamera(const std::string& name, const glm::vec3& eye, const glm::vec3& target,
+                          float fovDegrees) {
+    const glm::quat rotation = lookRotation(eye, target);
     root_["cameras"].push_back(
         {{"name", name},
          {"type", "perspective"},
@@ -183,6 +187,64 @@ int GltfWriter::addCamera(const std::string& name, const glm::vec3& eye, const g
          {"rotation", Json::array({rotation.x, rotation.y, rotation.z, rotation.w})}});
     root_["scenes"][0]["nodes"].push_back(root_["nodes"].size() - 1);
     return static_cast<int>(root_["cameras"].size()) - 1;
+}
+
+int GltfWriter::cameraNode(int camera) const {
+    const Json& nodes = root_["nodes"];
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (nodes[i].contains("camera") && nodes[i]["camera"] == camera) {
+            return static_cast<int>(i);
+        }
+    }
+    return -1;
+}
+
+void GltfWriter::useExtension(const std::string& extension) {
+    for (const Json& used : root_["extensionsUsed"]) {
+        if (used == extension) {
+            return;
+        }
+    }
+    root_["extensionsUsed"].push_back(extension);
+}
+
+int GltfWriter::addPointLight(const std::string& name, const glm::vec3& position,
+                              const glm::vec3& color, float candela, float range) {
+    useExtension("KHR_lights_punctual");
+    Json& lights = root_["extensions"]["KHR_lights_punctual"]["lights"];
+    lights.push_back(
+        {{"type", "point"}, {"color", array(color)}, {"intensity", candela}, {"range", range}});
+    root_["nodes"].push_back(
+        {{"name", name},
+         {"translation", array(position)},
+         {"extensions", {{"KHR_lights_punctual", {{"light", lights.size() - 1}}}}}});
+    root_["scenes"][0]["nodes"].push_back(root_["nodes"].size() - 1);
+    return static_cast<int>(root_["nodes"].size()) - 1;
+}
+
+void GltfWriter::addAnimation(const std::string& name,
+                              const std::vector<AnimationChannel>& channels) {
+    Json animation{{"name", name}, {"channels", Json::array()}, {"samplers", Json::array()}};
+    for (const AnimationChannel& channel : channels) {
+        const int input = addAccessor(channel.times.data(), channel.times.size(), 1, kFloat, false);
+        Json& times = root_["accessors"][static_cast<std::size_t>(input)];
+        times["min"] = Json::array({channel.times.front()});
+        times["max"] = Json::array({channel.times.back()});
+        std::vector<glm::vec4> turns;
+        for (const glm::quat& q : channel.turns) {
+            turns.emplace_back(q.x, q.y, q.z, q.w);
+        }
+        const int output =
+            turns.empty()
+                ? addAccessor(channel.places.data(), channel.places.size(), 3, kFloat, false)
+                : addAccessor(turns.data(), turns.size(), 4, kFloat, false);
+        animation["samplers"].push_back(
+            {{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
+        animation["channels"].push_back(
+            {{"sampler", animation["samplers"].size() - 1},
+             {"target", {{"node", channel.node}, {"path", channel.path}}}});
+    }
+    root_["animations"].push_back(animation);
 }
 
 core::Result<void> GltfWriter::write(const std::filesystem::path& folder) const {

@@ -19,6 +19,18 @@ namespace lodestar::samples {
 
 using Json = nlohmann::ordered_json;
 
+/// Keys of one quantity of a node.
+struct AnimationChannel {
+    int node = 0;
+    std::string path;              ///< "translation", or "rotation"
+    std::vector<float> times;      ///< seconds, ascending
+    std::vector<glm::vec3> places; ///< of a translation, one a time
+    std::vector<glm::quat> turns;  ///< of a rotation
+};
+
+/// How a camera stands that looks from one point at another.
+[[nodiscard]] glm::quat lookRotation(const glm::vec3& eye, const glm::vec3& target);
+
 /// One glTF file in the making; the functions return the index of what they added.
 class GltfWriter {
 public:
@@ -47,6 +59,19 @@ public:
     int addCamera(const std::string& name, const glm::vec3& eye, const glm::vec3& target,
                   float fovDegrees);
 
+    /// The node of a camera.
+    [[nodiscard]] int cameraNode(int camera) const;
+
+    /// A node that shines to all sides. @param candela [cd]  @param range metres
+    int addPointLight(const std::string& name, const glm::vec3& position, const glm::vec3& color,
+                      float candela, float range);
+
+    /// Says that the file uses an extension.
+    void useExtension(const std::string& extension);
+
+    /// An animation of linear keys.
+    void addAnimation(const std::string& name, const std::vector<AnimationChannel>& channels);
+
     /// Writes NAME.gltf and NAME.bin into a folder. @errors OutputFailed
     [[nodiscard]] core::Result<void> write(const std::filesystem::path& folder) const;
 
@@ -54,7 +79,8 @@ public:
     [[nodiscard]] Json& material(int index);
 
 private:
-    int addAccessor(const void* data, std::size_t count, int components, int componentType);
+    int addAccessor(const void* data, std::size_t count, int components, int componentType,
+                    bool vertices = true);
     void addBounds(int accessor, const std::vector<glm::vec3>& positions);
 
     std::string name_;

@@ -32,7 +32,7 @@ core::Result<void> writePanoramas(const std::filesystem::path& folder) {
 core::Result<void> writeAll(const std::filesystem::path& folder) {
     using Writer = core::Result<void> (*)(const std::filesystem::path&);
     for (const Writer write : {&writePanoramas, &writeFigure1, &writeFigure2, &writeFigure3,
-                               &writeAshikhmin, &writeEstimators, &writeTerrace}) {
+                               &writeAshikhmin, &writeEstimators, &writeTerrace, &writeLift}) {
         if (core::Result<void> written = write(folder); !written) {
             return written;
         }

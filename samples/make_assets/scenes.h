@@ -27,4 +27,9 @@ namespace lodestar::samples {
 /// A still life on a terrace; cameras "terrace", "table" and "steps".
 [[nodiscard]] core::Result<void> writeTerrace(const std::filesystem::path& folder);
 
+/// A courtyard, a hall with a lift, a store: for light probes. Cameras "courtyard", "hall", "lift"
+/// and "Walker", which the animation "walk" moves, and the lift with it. It uses the terrace's
+/// textures.
+[[nodiscard]] core::Result<void> writeLift(const std::filesystem::path& folder);
+
 } // namespace lodestar::samples

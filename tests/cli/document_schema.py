@@ -39,7 +39,13 @@ FULL = {
     "materials": {"gold": {"exponent": 64, "f0": [1, 0.8, 0.3]},
                   "#2": {"exponent": "mirror", "diffuse": [0, 0, 0], "specular": "mip",
                          "tolerance": 0.1}},
-    "probes": [{"name": "hall", "position": [0, 1, 0], "update": {"every": 4}}],
+    "probes": [{"name": "hall", "position": [0, 1, 0], "update": {"every": 4},
+                "capture": {"resolution": 64, "near": 0.1, "far": 50, "layers": 3},
+                "influence": {"shape": "box", "center": [0, 0, 0], "size": [4, 3, 6], "blend": 0.5},
+                "proxy": {"shape": "sphere", "radius": 4}, "priority": 2, "exterior": False,
+                "tint": [1, 0.9, 0.8], "intensity": 1.5},
+               {"name": "lift", "node": "Lift", "update": "always", "source": "lift.exr",
+                "influence": {"size": [2, 2, 2], "blend": [1, 1, 0, 0, 0.5, 0.5]}}],
 }
 
 VALUES = [None, True, -1, 0, 0.5, 2, 91, 181, 367, 1e7, 2e7, 1e300, "", "mirror", "linear", "sun", "#1",
@@ -48,8 +54,11 @@ REMOVED = object()
 
 # (what the pointer ends in, the value, why the two differ)
 NORTH = "a schema cannot ask for a part across +Y"
+FAR = "nor that one member is greater than another"
 HUGE = "nor that the squares of its parts are doubles"
 DIFFERENCES = [
+    ("/capture/near", 91, FAR), ("/capture/near", 181, FAR), ("/capture/near", 367, FAR),
+    ("/capture/near", 1e7, FAR), ("/capture/near", 2e7, FAR),
     ("/path/north", [0, 0, 0], NORTH),
     ("/path/north/2", 0, NORTH),
     ("/path/north/0", 1e300, HUGE),

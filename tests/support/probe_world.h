@@ -100,8 +100,6 @@ public:
         probe.capture.resolution = 32;
         probe.influence.size = size;
         probe.influence.blend.fill(blend);
-        // The volume's frame is the node's: its centre stands where the probe does.
-        probe.influence.center = position;
         return probe;
     }
     /// Gives the last probe a file's light of one radiance.

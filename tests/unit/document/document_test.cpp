@@ -36,7 +36,13 @@ const std::string kFull = R"({
     {"kind": "sun", "path": {"latitude": 47.5, "dayOfYear": 172, "north": [0, 0, -1], "city": "?"},
      "visibility": false, "keys": [{"hour": 12, "gradient": {"interpolation": "constant",
        "stops": [{"at": 0, "color": [1, 1, 1], "ev": 15.5}, {"at": 0.27, "color": [0, 0, 0]}]}}]}],
-  "probes": [{"name": "hall", "position": [1, 2, 3]}],
+  "probes": [{"name": "hall", "position": [1, 2, 3], "mood": "warm", "source": "hall.exr",
+     "capture": {"resolution": 64, "near": 0.25, "far": 50, "layers": 5, "by": "me"},
+     "update": {"every": 4, "why": "slow"}, "priority": 2, "exterior": false, "tint": [1, 0.5, 0.25],
+     "intensity": 2, "influence": {"shape": "box", "center": [0, 1, 0], "size": [4, 3, 6],
+     "blend": [1, 1, 0, 0, 0.5, 0.5], "color": "red"},
+     "proxy": {"shape": "sphere", "center": [0, 0, 0], "radius": 4, "blend": 0, "soft": 1}},
+    {"name": "lift", "node": "Lift", "update": "always"}],
   "materials": {"gold": {"exponent": 64, "f0": [1, 0.8, 0.3], "tag": 7},
                 "#2": {"exponent": "mirror", "diffuse": [0, 0, 0], "specular": "mip", "tolerance": 0.1}}
 })";
@@ -76,7 +82,7 @@ TEST(Document, ReadsWhatItSays) {
     EXPECT_EQ(sun.path->dayOfYear, 172);
     EXPECT_TRUE(std::isinf(*document->materials.at("#2").exponent));
     EXPECT_EQ(*document->materials.at("#2").specular, "mip");
-    EXPECT_EQ(warnings.counts().size(), 1u) << "the probes alone";
+    EXPECT_TRUE(warnings.counts().empty());
     const auto lights = dayLights(*document, warnings);
     ASSERT_TRUE(lights.ok());
     EXPECT_EQ((*lights)[0].axis, glm::dvec3(0.0, 1.0, 0.0));
@@ -104,6 +110,10 @@ TEST(Document, SurvivesASaveWhole) {
     noon["tint"] = {1.0, 1.0, 1.0};
     noon["gradient"]["space"] = "linear";
     noon["gradient"]["stops"][1]["ev"] = 0.0;
+    expected["probes"][1] = json::parse(R"({"name": "lift", "node": "Lift", "position": [0, 0, 0],
+        "capture": {"resolution": 128, "near": 0.05, "far": 1000}, "update": "always",
+        "influence": {"shape": "box", "center": [0, 0, 0], "size": [10, 10, 10], "blend": 0},
+        "priority": 0, "exterior": true, "tint": [1, 1, 1], "intensity": 1})");
     EXPECT_EQ(json::parse(text), expected);
 }
 
@@ -140,6 +150,31 @@ TEST(Document, RefusesWithThePointer) {
         {"/lights/1/path/north", {0, 1, 0}, nullptr},
         {"/lights/1/visibility", "yes", nullptr},
         {"/probes", 1, nullptr},
+        {"/probes/0", 1, nullptr},
+        {"/probes/0/name", 1, nullptr},
+        {"/probes/0/node", "", nullptr},
+        {"/probes/0/position", {0, 1}, nullptr},
+        {"/probes/0/source", "", nullptr},
+        {"/probes/0/capture/resolution", 0, nullptr},
+        {"/probes/0/capture/resolution", 16385, nullptr},
+        {"/probes/0/capture/resolution", 1.5, nullptr},
+        {"/probes/0/capture/near", 0, nullptr},
+        {"/probes/0/capture/near", 60, "/probes/0/capture"},
+        {"/probes/0/capture/layers", -1, nullptr},
+        {"/probes/0/update", "sometimes", nullptr},
+        {"/probes/0/update/every", 0, nullptr},
+        {"/probes/0/update", json::object(), "/probes/0/update"},
+        {"/probes/0/influence/shape", "cone", nullptr},
+        {"/probes/0/influence/size", {1, -1, 1}, nullptr},
+        {"/probes/0/influence/radius", 1, nullptr},
+        {"/probes/0/influence/blend", -1, nullptr},
+        {"/probes/0/influence/blend", {1, 2}, nullptr},
+        {"/probes/0/proxy/radius", -1, nullptr},
+        {"/probes/0/proxy/size", {1, 1, 1}, nullptr},
+        {"/probes/0/priority", 0.5, nullptr},
+        {"/probes/0/exterior", 1, nullptr},
+        {"/probes/0/tint", {1, 1, -1}, nullptr},
+        {"/probes/0/intensity", -1, nullptr},
         {"/materials", json::array(), nullptr},
         {"/materials/gold/exponent", -1, nullptr},
         {"/materials/gold/exponent", 2e7, nullptr},
