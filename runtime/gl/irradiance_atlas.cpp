@@ -84,12 +84,21 @@ glm::ivec2 IrradianceAtlas::tile(int number) const {
 }
 
 void IrradianceAtlas::begin(int number) {
+    beginAt(number, 0, kTileWidth);
+}
+
+void IrradianceAtlas::beginRows(int number) {
+    beginAt(number, kTileWidth, kTileHeight);
+}
+
+void IrradianceAtlas::beginAt(int number, int firstRow, int endRow) {
     const glm::ivec2 first = tile(number);
     glBindFramebuffer(GL_FRAMEBUFFER, id_);
-    glViewport(first.x, first.y, kTileWidth, kTileHeight);
+    glViewport(first.x, first.y + firstRow, kTileWidth, endRow - firstRow);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     ++device_->counters().passes;
-    device_->counters().texelsWritten += std::uint64_t{kTileWidth} * kTileHeight;
+    device_->counters().texelsWritten +=
+        std::uint64_t{kTileWidth} * static_cast<std::uint64_t>(endRow - firstRow);
 }
 
 } // namespace lodestar::gl

@@ -10,9 +10,10 @@
 
 namespace lodestar::gl {
 
-/// A tile's texels: lodestar_irradianceTexel's square with its border.
+/// A tile's texels: lodestar_irradianceTexel's square with its border, beneath it rows for other
+/// values of the probe.
 inline constexpr int kTileWidth = 18;
-inline constexpr int kTileHeight = 18;
+inline constexpr int kTileHeight = 20;
 
 class IrradianceAtlas {
 public:
@@ -28,12 +29,14 @@ public:
     [[nodiscard]] core::Result<int> add();
     /// The first texel of a tile.
     [[nodiscard]] glm::ivec2 tile(int number) const;
-    /// Binds a tile to draw in, not cleared. Counts a pass.
+    /// Binds a tile's square to draw in, or the rows beneath it, not cleared. Counts a pass.
     void begin(int number);
+    void beginRows(int number);
     [[nodiscard]] const Texture& texture() const { return texture_; }
 
 private:
     [[nodiscard]] core::Result<void> allocate(int rows);
+    void beginAt(int number, int first, int end);
 
     Device* device_ = nullptr;
     unsigned id_ = 0; ///< framebuffer of the texture

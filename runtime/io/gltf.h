@@ -206,8 +206,8 @@ struct GltfNode {
     int mesh = kNone;
     int camera = kNone;
     int light = kNone;
-    int skin = kNone;           ///< kNone unless the node has a mesh with joints
-    std::vector<float> weights; ///< of its mesh's morph targets; empty: the mesh's own
+    int skin = kNone;                   ///< kNone unless the node has a mesh with joints
+    std::vector<float> weights;         ///< of its mesh's morph targets; empty: the mesh's own
     std::uint32_t layers = 0xffffffffu; ///< `extras.lodestar.layers`: light probes that share a bit
 };
 

@@ -52,6 +52,10 @@ public:
     /// Irradiance over pi about the axis of a light at the hour last described, were nothing in the
     /// way.
     [[nodiscard]] glm::dvec3 facingIrradiance(std::size_t light);
+    /// Whether a light is a sun that hides nothing in a shadow map.
+    [[nodiscard]] bool isBareSun(std::size_t light) const {
+        return !isSky(light) && lights_[light].shadow < 0;
+    }
     /// Whether a light is a sky; what of it a blend depends on.
     [[nodiscard]] bool isSky(std::size_t light) const;
     [[nodiscard]] lighting::LightMap::Content content(std::size_t light) const;

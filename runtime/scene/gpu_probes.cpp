@@ -194,6 +194,15 @@ void GpuProbes::compose(const plan::ProbeWork& work, const gl::Program& program,
     glDisable(GL_BLEND);
 }
 
+/// @pre what was captured is bound
+void GpuProbes::findSuns(const Cubes& cubes, const gl::Program& program) {
+    program.use();
+    const glm::ivec2 first = irradiance_.tile(cubes.tile);
+    glUniform2i(program.uniform("uTile"), first.x, first.y + gl::kTileWidth);
+    irradiance_.beginRows(cubes.tile);
+    gl::drawFullScreen(*device_);
+}
+
 void GpuProbes::work(const plan::EffectPlan& plan, const Programs& programs,
                      const ProbeObserver& observer) {
     for (const plan::ProbeWork& work : plan.probeWork) {
@@ -201,6 +210,9 @@ void GpuProbes::work(const plan::EffectPlan& plan, const Programs& programs,
         if (work.compose) {
             compose(work, programs.composition(plan),
                     observer.component(work.probe).map != nullptr);
+            if (!plan.rsrmLights.empty()) {
+                findSuns(cubes, programs.seenSuns());
+            }
         }
         cubes.lastLevel = std::min(work.lastLevel, cubes.lit.levelCount() - 1);
         filter_->fillMips(cubes.lit, cubes.lastLevel);

@@ -76,6 +76,7 @@ private:
     [[nodiscard]] static core::Result<Cubes>
     makeCubes(gl::Device& device, const ProbeComponent& component, core::Tally& warnings);
     [[nodiscard]] core::Result<void> prepareStaging(gl::Device& device, int width);
+    void findSuns(const Cubes& cubes, const gl::Program& program);
     void compose(const plan::ProbeWork& work, const gl::Program& program, bool fromFile);
 
     gl::Device* device_ = nullptr;

@@ -8,7 +8,7 @@
 namespace lodestar::scene {
 namespace {
 
-/// Folds a value into a number that tells states apart (FNV-1a, by words).
+/// Folds a value into a number that tells states apart, after Fowler, Noll and Vo.
 void fold(std::uint64_t& state, std::uint64_t value) {
     state = (state ^ value) * 1099511628211ull;
     state ^= state >> 29;
@@ -35,12 +35,16 @@ plan::LightState lightState(const GpuEnvironment& environment, GpuLights& lights
     }
     for (std::size_t i = 0; i < lights.count(); ++i) {
         state.sources.push_back(along(lights.facingIrradiance(i), lights.axis(i)));
+        // Which suns are up numbers those that are.
+        fold(state.sky, std::uint64_t{lights.content(i).factor > 0.0 ? 1u : 0u});
         if (lights.isSky(i)) {
             const lighting::LightMap::Content content = lights.content(i);
             fold(state.sky, static_cast<std::uint64_t>(content.from));
             fold(state.sky, static_cast<std::uint64_t>(content.to));
             fold(state.sky, content.t);
             fold(state.sky, content.factor);
+        }
+        if (lights.isSky(i) || lights.isBareSun(i)) { // what probes see of the latter
             for (int c = 0; c < 3; ++c) {
                 fold(state.sky, lights.axis(i)[c]);
             }

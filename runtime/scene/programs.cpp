@@ -171,6 +171,11 @@ core::Result<void> Programs::compile(const plan::PlanInput& input, const plan::E
             !made) {
             return made;
         }
+        if (!plan.rsrmLights.empty()) {
+            if (auto made = add(suns_, "host/present.vert", "host/probe_suns.frag", {}); !made) {
+                return made;
+            }
+        }
     }
     if (plan.backdrop) {
         return add(backdrops_, "host/backdrop.vert", "host/backdrop.frag",
@@ -191,6 +196,10 @@ const MeshProgram& Programs::depth(plan::Features features, const plan::EffectPl
 
 const gl::Program& Programs::backdrop(const plan::EffectPlan& plan) const {
     return backdrops_.at(skyDefines(plan.backdropFeatures, plan)).program;
+}
+
+const gl::Program& Programs::seenSuns() const {
+    return suns_.at({}).program;
 }
 
 const gl::Program& Programs::composition(const plan::EffectPlan& plan) const {

@@ -41,6 +41,8 @@ public:
     [[nodiscard]] const MeshProgram& mesh(plan::Features features, const plan::EffectPlan& plan,
                                           const RenderSettings& settings) const;
     [[nodiscard]] const gl::Program& backdrop(const plan::EffectPlan& plan) const;
+    /// How much probes see of suns. @pre compiled, where the plan has lights
+    [[nodiscard]] const gl::Program& seenSuns() const;
     /// Composes what stands behind a probe's captured geometry.
     [[nodiscard]] const gl::Program& composition(const plan::EffectPlan& plan) const;
     /// Depth alone, of a caster with these features.
@@ -53,7 +55,7 @@ private:
                                          const char* fragmentFile, const gl::Defines& defines);
 
     gl::Device* device_;
-    Variants meshes_, depths_, backdrops_, compositions_;
+    Variants meshes_, depths_, backdrops_, compositions_, suns_;
 };
 
 } // namespace lodestar::scene

@@ -159,10 +159,9 @@ blocks::LodestarFrame Renderer::State::frameBlockFor(const RenderSettings& setti
 }
 
 bool publishes(const plan::EffectPlan& plan, std::size_t probe) {
-    return std::any_of(plan.probeWork.begin(), plan.probeWork.end(),
-                       [&](const plan::ProbeWork& work) {
-                           return work.probe == probe && work.publish;
-                       });
+    return std::any_of(
+        plan.probeWork.begin(), plan.probeWork.end(),
+        [&](const plan::ProbeWork& work) { return work.probe == probe && work.publish; });
 }
 
 /// The faces that the plan draws, and what it makes of them.
@@ -187,8 +186,8 @@ core::Result<void> Renderer::State::drawProbes(const plan::EffectPlan& plan,
         bindLight(settings, block);
         drawer.drawFace(plan, i, settings, probes);
         probes.endFace(face);
-        const bool last = i + 1 == plan.probeFaces.size() ||
-                          plan.probeFaces[i + 1].probe != face.probe;
+        const bool last =
+            i + 1 == plan.probeFaces.size() || plan.probeFaces[i + 1].probe != face.probe;
         if (last && publishes(plan, face.probe)) {
             probes.publish(face.probe);
         }

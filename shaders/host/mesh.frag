@@ -24,6 +24,8 @@ layout(location = 0) out vec4 oRadiance; // premultiplied by coverage
 #if LODESTAR_PROBES
 #include "lodestar/probes.glsl"
 #include "host/probes.glsl"
+
+LodestarShares hereShares; // of the fragment
 #endif
 
 #if LODESTAR_PUNCTUAL_LIGHTS
@@ -50,8 +52,7 @@ vec3 punctualLights(LodestarSurface here) {
 
 #if LODESTAR_RSRM_LIGHTS
 /// Skies and suns: their means over Lambert's lobe and the glossy one summed, then weighed once.
-/// @param open the share of the sky that no probe stands before
-vec3 rsrmLights(LodestarSurface here, float open) {
+vec3 rsrmLights(LodestarSurface here) {
     LodestarLookup lookup = LODESTAR_RSRM_LAYOUT == LODESTAR_RSRM_PUBLISHED
                                 ? lodestar_lookupAsGiven(here.normal, here.view, here.exponent)
                                 : lodestar_lookup(here.normal, here.view, here.exponent);
@@ -60,7 +61,14 @@ vec3 rsrmLights(LodestarSurface here, float open) {
     vec3 glossy = vec3(0.0);
     for (int i = 0; i < LODESTAR_RSRM_LIGHTS; ++i) {
         LodestarRsrm map = rsrmLight(i);
-        float visible = lodestar_host_visibility(i) * (rsrmScale[i].y > 0.5 ? open : 1.0);
+        float visible = lodestar_host_visibility(i);
+#if LODESTAR_PROBES
+        if (rsrmScale[i].y > 0.5) {
+            visible *= hereShares.environment; // probes hold the rest of a sky
+        } else if (i >= LODESTAR_SHADOWS) {
+            visible *= sunShare(hereShares, i);
+        }
+#endif
         lambert += visible * lodestar_rsrmLambert(map, here.normal);
         glossy += visible * lodestar_rsrm(map, lookup.direction, row);
     }
@@ -86,9 +94,9 @@ void main() {
     vec3 radiance = emissiveHere();
     float open = 1.0; // the share of the distant environment
 #if LODESTAR_PROBES
-    LodestarShares shares = probeShares();
-    radiance += probeLight(here, shares);
-    open = shares.environment;
+    hereShares = probeShares();
+    radiance += probeLight(here, hereShares);
+    open = hereShares.environment;
 #endif
 #if LODESTAR_ENVIRONMENT
     LodestarCube cube;
@@ -104,7 +112,7 @@ void main() {
     radiance += open * lodestar_environment(cube, here, dFdx(reflection), dFdy(reflection));
 #endif
 #if LODESTAR_RSRM_LIGHTS
-    radiance += rsrmLights(here, open);
+    radiance += rsrmLights(here);
 #endif
 #if LODESTAR_PUNCTUAL_LIGHTS
     radiance += punctualLights(here);

@@ -74,3 +74,20 @@ vec3 probeLight(LodestarSurface surface, LodestarShares shares) {
 #endif
     return sum;
 }
+
+#if LODESTAR_RSRM_LIGHTS
+float seenSun(vec4 light, vec2 tile, int sun) {
+    ivec2 at = ivec2(tile) + ivec2(sun % LODESTAR_SUN_TEXELS, LODESTAR_SUN_TEXELS + sun / LODESTAR_SUN_TEXELS);
+    return dot(light.rgb, vec3(1.0)) > 0.0 ? texelFetch(uProbeIrradiance, at, 0).r : 0.0;
+}
+
+/// What probes let through of a sun that casts no shadow: all outside them, inside what they see of it
+/// from where they captured.
+float sunShare(LodestarShares shares, int sun) {
+    float share = shares.environment + shares.first * seenSun(uProbe[0].light, uProbe[0].tile.xy, sun);
+#if LODESTAR_PROBES > 1
+    share += shares.second * seenSun(uProbe[1].light, uProbe[1].tile.xy, sun);
+#endif
+    return share;
+}
+#endif

@@ -40,8 +40,8 @@ protected:
     }
     /// A target that holds a level 0.
     gl::Texture targetOf(const Cubemap& base) {
-        auto target = gl::Texture::makeCubeTarget(
-            device(), base.width(), lighting::fullLevelCount(base.width()), "cube");
+        auto target = gl::Texture::makeCubeTarget(device(), base.width(),
+                                                  lighting::fullLevelCount(base.width()), "cube");
         EXPECT_TRUE(target.ok());
         target->bind(0);
         const std::size_t face = base.level(0).size() / 6;
@@ -80,9 +80,10 @@ Cubemap constant(const glm::vec3& radiance, int width) {
 
 /// A lamp about a direction, of 5 degrees' radius, 100 times the rest.
 Cubemap lamp(const glm::dvec3& axis, int width) {
-    return lighting::cubeFromAnalytic(
-        lighting::DiscEnvironment{glm::normalize(axis), 0.0873, glm::dvec3(100.0), glm::dvec3(0.05)},
-        width);
+    return lighting::cubeFromAnalytic(lighting::DiscEnvironment{glm::normalize(axis), 0.0873,
+                                                                glm::dvec3(100.0),
+                                                                glm::dvec3(0.05)},
+                                      width);
 }
 
 // Half floats hold 11 bits: a texel that is rounded once is 2^-11 off at most, and a value that is
@@ -91,7 +92,15 @@ TEST_F(ProbeFilterTest, AConstantStaysConstant) {
     for (const int width : {1, 2, 3, 8, 16, 32, 100, 128}) {
         const Cubemap map = filtered(constant(glm::vec3(0.7f, 1.0f, 40.0f), width));
         for (int level = 0; level < map.levelCount(); ++level) {
-            if (width == 128) { const auto mm = std::minmax_element(map.level(level).begin(), map.level(level).end(), [](const glm::vec4& a, const glm::vec4& b) { return a.g < b.g; }); std::printf("minmax %.6f %.6f at %zu\n", mm.first->g, mm.second->g, static_cast<std::size_t>(mm.first - map.level(level).begin())); std::printf("%d %u: %d: %.6f %.6f %.6f\n", width, filter_->halfStep(), level, map.level(level)[0].r, map.level(level)[0].g, map.level(level)[0].b); }
+            if (width == 128) {
+                const auto mm = std::minmax_element(
+                    map.level(level).begin(), map.level(level).end(),
+                    [](const glm::vec4& a, const glm::vec4& b) { return a.g < b.g; });
+                std::printf("minmax %.6f %.6f at %zu\n", mm.first->g, mm.second->g,
+                            static_cast<std::size_t>(mm.first - map.level(level).begin()));
+                std::printf("%d %u: %d: %.6f %.6f %.6f\n", width, filter_->halfStep(), level,
+                            map.level(level)[0].r, map.level(level)[0].g, map.level(level)[0].b);
+            }
             for (const glm::vec4& texel : map.level(level)) {
                 ASSERT_NEAR(texel.r, 0.7f, 0.7f * 0.001f) << width << " level " << level;
                 ASSERT_NEAR(texel.g, 1.0f, 0.001f) << width << " level " << level;
@@ -102,8 +111,8 @@ TEST_F(ProbeFilterTest, AConstantStaysConstant) {
 }
 
 TEST_F(ProbeFilterTest, EveryLevelKeepsTheMean) {
-    for (const glm::dvec3& axis : {glm::dvec3(1, 1, 1), glm::dvec3(1, 0, 0), glm::dvec3(1, 0.9, 0.1),
-                                   glm::dvec3(0.3, -1, 0.4)}) {
+    for (const glm::dvec3& axis : {glm::dvec3(1, 1, 1), glm::dvec3(1, 0, 0),
+                                   glm::dvec3(1, 0.9, 0.1), glm::dvec3(0.3, -1, 0.4)}) {
         const Cubemap map = filtered(lamp(axis, 128));
         const glm::dvec4 truth = lighting::sphereMean(map, 0);
         for (int level = 1; level < map.levelCount(); ++level) {

@@ -109,8 +109,8 @@ lighting::DayLight dusk() {
 TEST_F(ProbeMotion, AComposedSkyIsWhatACameraSees) {
     ProbeWorld world = yard(0.0f);
     // Something that takes light, inside the view and under the ground.
-    world.ball("witness", {0, -0.6f, 0}, 0.1f,
-               blinnPhong(glm::vec3(0.5f), glm::vec3(0.1f), 30.0f), 2);
+    world.ball("witness", {0, -0.6f, 0}, 0.1f, blinnPhong(glm::vec3(0.5f), glm::vec3(0.1f), 30.0f),
+               2);
     lighting::Probe& probe = world.probe("yard", {0, 2.2, 2.5}, {12, 8, 12}, 0.5);
     probe.capture.resolution = 64;
     probe.capture.layers = 1;

@@ -142,6 +142,46 @@ TEST_F(Probes, AClosedRoomKeepsTheSkyOut) {
     EXPECT_GT(greatest(frameOf(*bright, inside, small(64)).radiance), 0.5f);
 }
 
+/// A sun of irradiance 10 about an axis, and no sky. @param visibility whether it casts shadows
+std::vector<lighting::DayLight> bareSun(const glm::dvec3& axis, bool visibility) {
+    lighting::DayLight sun;
+    sun.name = "sun";
+    sun.kind = lighting::LightKind::Sun;
+    sun.axis = axis;
+    sun.visibility = visibility;
+    sun.keys = {{12.0,
+                 {{{0, glm::dvec3(147000.0), 0}, {0.27, glm::dvec3(147000.0), 0}, {0.27, {}, 0}}},
+                 glm::dvec3(1.0),
+                 {}}};
+    core::Tally warnings;
+    return {*lighting::repaired(sun, warnings)};
+}
+
+// By its shadow map where it has one, else by what the probe sees of it.
+TEST_F(Probes, AClosedRoomKeepsTheSunOut) {
+    for (const bool visibility : {true, false}) {
+        for (const glm::dvec3& axis :
+             {glm::dvec3(0.2, 1, 0.3), glm::dvec3(1, 0.2, 0.1), glm::dvec3(-0.3, 0.4, 1)}) {
+            ProbeWorld world;
+            world.room({-2, 0, -3}, {2, 2.5f, 3}, 0.3f,
+                       blinnPhong(glm::vec3(0.8f), glm::vec3(0.04f), 30.0f));
+            lighting::Probe& probe = world.probe("room", {0, 1.25, 0}, {4.3, 2.8, 6.3}, 0.1);
+            probe.exterior = false;
+            const scene::Scene scene = world.make();
+            auto renderer = rendererOf(scene);
+            renderer->setLights(bareSun(glm::normalize(axis), visibility));
+            const auto lit = [&](const glm::vec3& eye, const glm::vec3& target) {
+                return greatest(
+                    frameOf(*renderer, testing::lookAt(scene, eye, target), small(64)).radiance);
+            };
+            const float outside = lit({7, 6, 7}, {0, 1, 0});
+            EXPECT_GT(outside, 0.5f);
+            EXPECT_LT(lit({0, 1.4f, 2.5f}, {0.2f, 1.0f, -2}), 0.01f * outside) << visibility;
+            EXPECT_LT(lit({0, 1.4f, -2.5f}, {0.2f, 1.5f, 2}), 0.01f * outside) << visibility;
+        }
+    }
+}
+
 // A lamp in a room: the walls are lit by the picture of the walls, which the lamp lights.
 TEST_F(Probes, ARoomIsLitByItsLamp) {
     ProbeWorld world;

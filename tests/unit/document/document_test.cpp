@@ -317,7 +317,7 @@ TEST(Document, SampleSkiesAreInOrder) {
         EXPECT_TRUE(warnings.empty()) << entry.path() << warnings.counts().begin()->first;
         ++count;
     }
-    EXPECT_EQ(count, 4u);
+    EXPECT_EQ(count, 5u);
 }
 
 } // namespace
