@@ -37,4 +37,12 @@ std::vector<GlslCase> surfaceCases();
 /// two logarithms, a fraction, h in [0, 1]; p4 a texel; p5 a valid exponent.
 std::vector<GlslCase> rsrmCases();
 
+std::vector<GlslCase> facePointCases();  ///< u, v up to a little beyond the face, a width
+std::vector<GlslCase> roundLobeCases();  ///< exponent, a spread that leaves half of the lobe's
+std::vector<GlslCase> octahedralCases(); ///< p0 unit, p1.xy a point of the square or beside it
+/// p0 to p2 rows, p3 half extents and sphere, p4, p5 blends, p4.w outward, p6 a point inside, p7 a
+/// unit direction, p8 where was captured.
+std::vector<GlslCase> volumeCases();
+std::vector<GlslCase> shareCases(); ///< p0 w0, w1, f0, f1; p1.x open
+
 } // namespace lodestar::testing

@@ -5,6 +5,7 @@
 #include "lodestar/display.glsl"
 #include "lodestar/lobes.glsl"
 #include "lodestar/power.glsl"
+#include "lodestar/probes.glsl"
 #include "lodestar/rsrm.glsl"
 #include "lodestar/sh9.glsl"
 

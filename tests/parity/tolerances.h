@@ -57,4 +57,12 @@ ToleranceFunction rsrmTolerance;
 ToleranceFunction rsrmLambertTolerance;
 ToleranceFunction rsrmGradientTolerance;
 
+ToleranceFunction densityTolerance;
+ToleranceFunction meanDensityTolerance;
+ToleranceFunction roundExponentTolerance;
+ToleranceFunction tileTolerance;
+ToleranceFunction intoVolumeTolerance;
+ToleranceFunction volumeWeightTolerance;
+ToleranceFunction parallaxTolerance;
+
 } // namespace lodestar::testing
