@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <epoxy/gl.h>
@@ -17,17 +18,16 @@ namespace {
 /// Texture units of the passes' own; the renderer binds its own anew.
 constexpr int kCubeUnit = 0;
 constexpr int kMeansUnit = 1;
-constexpr int kFinerUnit = 2;
-constexpr int kKeptUnit = 3;
 
-constexpr int kParts = 96; ///< of a level that is summed up
-/// The tent level that coarse round levels are read from.
+constexpr int kParts = 96;     ///< of a level that is summed up
+constexpr int kMostSummed = 8; ///< levels
+constexpr int kMostTaps = 64;
+/// The tent level that round levels are read from, and that which the last two are.
 constexpr int kRoundSource = 16;
+constexpr int kSummedSource = 4;
 /// Levels of at most so many texels are sums over all texels of the tent level of kSummedSource.
 constexpr int kSummedWidth = 2;
-constexpr int kSummedSource = 8;
-constexpr int kIrradianceSource = 8;
-constexpr GLenum kBoth[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+constexpr int kCoefficients = 9; ///< of irradiance
 
 int widthOf(const Texture& cube, int level) {
     return std::max(cube.width() >> level, 1);
@@ -42,26 +42,36 @@ int levelOfWidth(const Texture& cube, int width) {
     return level;
 }
 
-/// Fetches for a texel of a round level: more where its lobe is many texels of its source wide.
+/// Fetches for a texel of a round level: as many as its lobe has texels of what it reads, but for
+/// its skirts.
 int roundFetches(int width) {
-    return width >= 16 ? 20 : width >= 8 ? 32 : width >= 4 ? 48 : 96;
+    return width >= 16 ? 24 : width >= 8 ? 32 : 64;
 }
 
-/// One over the sums of the two weights of shaders/host/probe_sums.frag.
-glm::vec2 normsOf(int width, int finerWidth) {
-    glm::dvec2 sums(0.0);
-    const auto finer = static_cast<float>(finerWidth);
+/// One over the sum of a level's weights in shaders/host/probe_sums.frag.
+float normOf(int width) {
+    double sum = 0.0;
     for (int y = 0; y < width; ++y) {
         for (int x = 0; x < width; ++x) {
             const float u = static_cast<float>(2 * x + 1) / static_cast<float>(width) - 1.0f;
             const float v = static_cast<float>(2 * y + 1) / static_cast<float>(width) - 1.0f;
-            sums +=
-                6.0 * glm::dvec2(static_cast<double>(shader::lodestar_meanTexelDensity(
-                                     u, v, static_cast<float>(width))),
-                                 static_cast<double>(shader::lodestar_tentDensity(u, v, finer)));
+            sum += static_cast<double>(
+                shader::lodestar_meanTexelDensity(u, v, static_cast<float>(width)));
         }
     }
-    return glm::vec2(1.0 / sums);
+    return static_cast<float>(1.0 / (6.0 * sum));
+}
+
+/// Of a cosine lobe the share t lies within the angle whose cosine to s + 1 is 1 - t.
+void spiral(double exponent, int count, float* sines) {
+    for (int i = 0; i < count; ++i) {
+        const double t = (i + 0.5) / count;
+        const double cosine = std::pow(1.0 - t, 1.0 / (exponent + 1.0));
+        const double sine = std::sqrt(std::max(1.0 - cosine * cosine, 0.0));
+        const double angle = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
+        sines[2 * i] = static_cast<float>(sine * std::cos(angle));
+        sines[2 * i + 1] = static_cast<float>(sine * std::sin(angle));
+    }
 }
 
 void attach(GLenum target, const Texture& texture) {
@@ -114,30 +124,18 @@ core::Result<ProbeFilter::Pass> ProbeFilter::makePass(const char* fragment, bool
     made->setSampler("uFirstProbe", kCubeUnit);
     made->setSampler("uMeans", kMeansUnit);
     made->setSampler("uCoefficients", kMeansUnit);
-    made->setSampler("uFinerMeans", kFinerUnit);
-    made->setSampler("uKept", kKeptUnit);
     if (const int step = made->uniform("uHalfStep"); step >= 0) {
         made->use();
         glUniform1ui(step, halfStep_);
     }
     Pass pass;
     pass.widths = made->uniform("uWidths");
-    pass.norms = made->uniform("uNorms");
     pass.lobe = made->uniform("uLobe");
-    pass.first = made->uniform("uFirst");
     pass.program = std::move(*made);
     return pass;
 }
 
-core::Result<ProbeFilter> ProbeFilter::make(Device& device) {
-    ProbeFilter filter;
-    filter.device_ = &device;
-    filter.fullScreen_ = VertexArray(device);
-    glGenFramebuffers(1, &filter.layers_);
-    glGenFramebuffers(1, &filter.small_);
-    if (auto measured = filter.measureHalfStep(); !measured) {
-        return measured.error();
-    }
+core::Result<void> ProbeFilter::makePasses() {
     struct Wanted {
         Pass ProbeFilter::*pass;
         const char* fragment;
@@ -151,28 +149,43 @@ core::Result<ProbeFilter> ProbeFilter::make(Device& device) {
         {&ProbeFilter::sums_, "host/probe_sums.frag", false},
         {&ProbeFilter::scale_, "host/probe_scale.frag", false},
         {&ProbeFilter::sh9_, "host/probe_sh9.frag", false},
+        {&ProbeFilter::sh9Sum_, "host/probe_sh9_sum.frag", false},
         {&ProbeFilter::irradiance_, "host/probe_irradiance.frag", false},
     };
     for (const Wanted& one : wanted) {
-        auto pass = filter.makePass(one.fragment, one.layered);
+        auto pass = makePass(one.fragment, one.layered);
         if (!pass) {
             return pass.error();
         }
-        filter.*one.pass = std::move(*pass);
+        this->*one.pass = std::move(*pass);
     }
-    filter.tileUniform_ = filter.irradiance_.program.uniform("uTile");
+    tileUniform_ = irradiance_.program.uniform("uTile");
+    return {};
+}
+
+core::Result<ProbeFilter> ProbeFilter::make(Device& device) {
+    ProbeFilter filter;
+    filter.device_ = &device;
+    filter.fullScreen_ = VertexArray(device);
+    glGenFramebuffers(1, &filter.layers_);
+    glGenFramebuffers(1, &filter.small_);
+    if (auto measured = filter.measureHalfStep(); !measured) {
+        return measured.error();
+    }
+    if (auto made = filter.makePasses(); !made) {
+        return made.error();
+    }
     struct Small {
         Texture ProbeFilter::*texture;
-        int width;
+        int width, height;
     };
-    const Small smalls[] = {{&ProbeFilter::means_, kParts},
-                            {&ProbeFilter::finerMeans_, kParts},
-                            {&ProbeFilter::scaleTexel_, 1},
-                            {&ProbeFilter::kept_, 1},
-                            {&ProbeFilter::coefficients_, 9}};
+    const Small smalls[] = {{&ProbeFilter::means_, kParts, kMostSummed},
+                            {&ProbeFilter::scales_, kMostSummed, 1},
+                            {&ProbeFilter::parts_, kParts, kCoefficients},
+                            {&ProbeFilter::coefficients_, kCoefficients, 1}};
     for (const Small& small : smalls) {
-        auto texture = Texture::makeTarget(device, small.width, 1, ArrayFormat::Rgba32F, false,
-                                           "sums of a light probe");
+        auto texture = Texture::makeTarget(device, small.width, small.height, ArrayFormat::Rgba32F,
+                                           false, "sums of a light probe");
         if (!texture) {
             return texture.error();
         }
@@ -189,7 +202,7 @@ ProbeFilter& ProbeFilter::operator=(ProbeFilter&& other) noexcept {
     std::swap(device_, other.device_);
     for (Pass ProbeFilter::*pass :
          {&ProbeFilter::tent_, &ProbeFilter::round_, &ProbeFilter::all_, &ProbeFilter::sums_,
-          &ProbeFilter::scale_, &ProbeFilter::multiply_, &ProbeFilter::sh9_,
+          &ProbeFilter::scale_, &ProbeFilter::multiply_, &ProbeFilter::sh9_, &ProbeFilter::sh9Sum_,
           &ProbeFilter::irradiance_}) {
         std::swap(this->*pass, other.*pass);
     }
@@ -198,9 +211,8 @@ ProbeFilter& ProbeFilter::operator=(ProbeFilter&& other) noexcept {
     std::swap(fullScreen_, other.fullScreen_);
     std::swap(layers_, other.layers_);
     std::swap(small_, other.small_);
-    for (Texture ProbeFilter::*texture :
-         {&ProbeFilter::means_, &ProbeFilter::finerMeans_, &ProbeFilter::scaleTexel_,
-          &ProbeFilter::kept_, &ProbeFilter::coefficients_}) {
+    for (Texture ProbeFilter::*texture : {&ProbeFilter::means_, &ProbeFilter::scales_,
+                                          &ProbeFilter::parts_, &ProbeFilter::coefficients_}) {
         std::swap(this->*texture, other.*texture);
     }
     return *this;
@@ -232,45 +244,39 @@ void ProbeFilter::tent(const Texture& cube, int level) {
     drawFullScreen(*device_, 6);
 }
 
-/// Sums a level up into the textures of parts. @param finerWidth of the level that it was made from
-void ProbeFilter::sumUp(const Texture& cube, int level, int finerWidth) {
-    const int width = widthOf(cube, level);
-    const glm::vec2 norms = normsOf(width, finerWidth);
-    cube.showLevels(level, level);
+/// Scales levels, channel by channel, so that their means are that of a finer one. Tents keep the
+/// mean by themselves (3e-4 a level at most, a lamp at the cube's corner); spirals do not.
+/// @param reference the level before the first that is scaled
+void ProbeFilter::keepMean(const Texture& cube, int reference, int last) {
+    const int rows = last - reference + 1;
+    cube.showLevels(0, cube.levelCount() - 1);
     glBindFramebuffer(GL_FRAMEBUFFER, small_);
     attach(GL_COLOR_ATTACHMENT0, means_);
-    attach(GL_COLOR_ATTACHMENT1, finerMeans_);
-    glDrawBuffers(2, kBoth);
-    glViewport(0, 0, kParts, 1);
+    glViewport(0, 0, kParts, rows);
     ++device_->counters().passes;
     sums_.program.use();
-    glUniform2f(sums_.widths, static_cast<float>(width), static_cast<float>(finerWidth));
-    glUniform2f(sums_.norms, norms.x, norms.y);
+    float norms[kMostSummed] = {};
+    for (int row = 0; row < rows; ++row) {
+        norms[row] = normOf(widthOf(cube, reference + std::max(row, 1)));
+    }
+    glUniform1fv(sums_.program.uniform("uNorms"), rows, norms);
+    glUniform2i(sums_.program.uniform("uRange"), reference, cube.width());
     drawFullScreen(*device_);
-}
-
-/// Scales a level, channel by channel, so that its mean is that of level 0.
-/// @param first whether it is the level whose tents know that mean
-void ProbeFilter::keepMean(const Texture& cube, int level, bool first) {
-    sumUp(cube, level, first ? widthOf(cube, level - 1) : widthOf(cube, level));
-    attach(GL_COLOR_ATTACHMENT0, scaleTexel_);
-    attach(GL_COLOR_ATTACHMENT1, kept_);
-    glDrawBuffers(first ? 2 : 1, kBoth);
-    glViewport(0, 0, 1, 1);
+    attach(GL_COLOR_ATTACHMENT0, scales_);
+    glViewport(0, 0, rows, 1);
     ++device_->counters().passes;
     means_.bind(kMeansUnit);
-    finerMeans_.bind(kFinerUnit);
-    kept_.bind(kKeptUnit);
     scale_.program.use();
-    glUniform1i(scale_.first, first ? 1 : 0);
     drawFullScreen(*device_);
-    glDrawBuffers(1, kBoth);
-    beginLevel(cube, level);
-    scaleTexel_.bind(kMeansUnit);
+    scales_.bind(kMeansUnit);
     multiply_.program.use();
     glEnable(GL_BLEND);
     glBlendFunc(GL_ZERO, GL_SRC_COLOR);
-    drawFullScreen(*device_, 6);
+    for (int row = 1; row < rows; ++row) {
+        beginLevel(cube, reference + row);
+        glUniform1i(multiply_.program.uniform("uRow"), row);
+        drawFullScreen(*device_, 6);
+    }
     glDisable(GL_BLEND);
     cube.bind(kCubeUnit);
 }
@@ -282,72 +288,94 @@ void ProbeFilter::round(const Texture& cube, int level, int source) {
         width <= 1.0
             ? 0.0
             : lighting::exponentOfTentLevel(std::ldexp(static_cast<double>(cube.width()), -level));
+    const double hat = 1.0 / 6.0 + 0.25 * ratio * ratio;
     const bool all = width <= kSummedWidth;
+    const int fetches = all ? widthOf(cube, source) : roundFetches(static_cast<int>(width));
     const Pass& pass = all ? all_ : round_;
     cube.showLevels(source, source);
     beginLevel(cube, level);
     pass.program.use();
-    glUniform4f(
-        pass.lobe, static_cast<float>(width), static_cast<float>(exponent),
-        static_cast<float>(1.0 / 6.0 + 0.25 * ratio * ratio),
-        static_cast<float>(all ? widthOf(cube, source) : roundFetches(static_cast<int>(width))));
+    glUniform4f(pass.lobe, static_cast<float>(width), static_cast<float>(exponent),
+                static_cast<float>(hat), static_cast<float>(fetches));
+    if (!all) {
+        const double texel = 4.0 * std::numbers::pi / (6.0 * width * width);
+        const float mean = shader::lodestar_roundExponent(static_cast<float>(exponent),
+                                                          static_cast<float>(hat * texel));
+        float sines[2 * kMostTaps] = {};
+        spiral(static_cast<double>(mean), fetches, sines);
+        glUniform2fv(pass.program.uniform("uSpiral"), fetches, sines);
+        glUniform1f(pass.program.uniform("uMeanExponent"), mean);
+    }
     drawFullScreen(*device_, 6);
+}
+
+void ProbeFilter::begin(const Texture& cube) {
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    cube.bind(kCubeUnit);
+    fullScreen_.bind();
+}
+
+/// Tents as far as something reads them: round levels read those of 16 and 4 texels, the first of
+/// them the level before. @return the coarsest of at least 16 texels
+int ProbeFilter::makeTents(const Texture& cube, int lastLevel) {
+    const int wide = levelOfWidth(cube, kRoundSource);
+    const int narrow = levelOfWidth(cube, kSummedSource);
+    const bool summed = widthOf(cube, lastLevel) <= kSummedWidth && lastLevel > narrow;
+    const int lastTent = summed ? narrow : std::min(lastLevel, wide);
+    for (int level = 1; level <= lastTent; ++level) {
+        tent(cube, level);
+    }
+    return std::min(lastTent, wide);
+}
+
+void ProbeFilter::makeRound(const Texture& cube, int lastLevel) {
+    const int wide = levelOfWidth(cube, kRoundSource);
+    const int narrow = levelOfWidth(cube, kSummedSource);
+    for (int level = lastLevel; level > wide; --level) {
+        round(cube, level, widthOf(cube, level) <= kSummedWidth ? narrow : wide);
+    }
+    if (wide > 0 && lastLevel >= wide) {
+        round(cube, wide, wide - 1);
+        keepMean(cube, wide - 1, lastLevel);
+    }
+    cube.showLevels(0, cube.levelCount() - 1);
 }
 
 void ProbeFilter::fillMips(const Texture& cube, int lastLevel) {
     LODESTAR_EXPECT(lastLevel < cube.levelCount(), "a mip level lies within the chain");
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_BLEND);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glActiveTexture(GL_TEXTURE0 + kCubeUnit);
-    cube.bind(kCubeUnit);
-    fullScreen_.bind();
-    // Tents as far as something reads them: round levels read those of 16 and 8 texels.
-    const int wide = levelOfWidth(cube, kRoundSource);
-    const int narrow = levelOfWidth(cube, kSummedSource);
-    const int lastTent = lastLevel > wide ? narrow : std::min(lastLevel, wide);
-    for (int level = 1; level <= lastTent; ++level) {
-        tent(cube, level);
-        keepMean(cube, level, level == 1);
-    }
-    for (int level = lastLevel; level > narrow; --level) {
-        const bool all = widthOf(cube, level) <= kSummedWidth;
-        round(cube, level, all ? narrow : wide);
-        if (widthOf(cube, level) > 1 && wide > 0) {
-            keepMean(cube, level, false);
-        }
-    }
-    for (int level = std::min(lastLevel, narrow); level >= std::max(wide, 1); --level) {
-        if (widthOf(cube, level) <= lighting::kWidestRound) {
-            round(cube, level, level == wide ? wide - 1 : wide);
-            keepMean(cube, level, false);
-        }
-    }
-    cube.showLevels(0, cube.levelCount() - 1);
+    begin(cube);
+    makeTents(cube, lastLevel);
+    makeRound(cube, lastLevel);
 }
 
-void ProbeFilter::fillIrradiance(const Texture& cube, IrradianceAtlas& atlas, int tile) {
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_BLEND);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+void ProbeFilter::fill(const Texture& cube, int lastLevel, IrradianceAtlas& atlas, int tile) {
+    LODESTAR_EXPECT(lastLevel < cube.levelCount(), "a mip level lies within the chain");
+    begin(cube);
+    const int tents = makeTents(cube, lastLevel);
+    fillIrradiance(cube, tents, atlas, tile);
     cube.bind(kCubeUnit);
-    fullScreen_.bind();
-    const int level = levelOfWidth(cube, kIrradianceSource);
+    makeRound(cube, lastLevel);
+}
+
+void ProbeFilter::fillIrradiance(const Texture& cube, int level, IrradianceAtlas& atlas, int tile) {
     cube.showLevels(level, level);
     glBindFramebuffer(GL_FRAMEBUFFER, small_);
-    attach(GL_COLOR_ATTACHMENT0, coefficients_);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, 0,
-                           0); // a smaller one would cut the first
-    glDrawBuffers(1, kBoth);
-    glViewport(0, 0, 9, 1);
+    attach(GL_COLOR_ATTACHMENT0, parts_);
+    glViewport(0, 0, kParts, kCoefficients);
     ++device_->counters().passes;
     sh9_.program.use();
-    const auto width = static_cast<float>(widthOf(cube, level));
-    glUniform2f(sh9_.widths, width, width);
+    const int width = widthOf(cube, level);
+    glUniform2f(sh9_.widths, static_cast<float>(width), normOf(width));
     drawFullScreen(*device_);
-    cube.showLevels(0, cube.levelCount() - 1);
+    attach(GL_COLOR_ATTACHMENT0, coefficients_);
+    glViewport(0, 0, kCoefficients, 1);
+    ++device_->counters().passes;
+    parts_.bind(kMeansUnit);
+    sh9Sum_.program.use();
+    drawFullScreen(*device_);
     atlas.begin(tile);
     coefficients_.bind(kMeansUnit);
     irradiance_.program.use();

@@ -97,7 +97,7 @@ public:
     [[nodiscard]] int height() const { return height_; }
 
     void bind(int unit) const;
-    /// Lets lookups see a range of levels alone. @pre a cube target, bound or not
+    /// Lets lookups see a range of levels alone. @pre a cube target
     void showLevels(int first, int last) const;
 
 private:

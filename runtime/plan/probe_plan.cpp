@@ -119,11 +119,13 @@ private:
                (receivers_[i].count > 0 || inProgress(i));
     }
     /// The picture's share of what it lights, the speed of what moved before it, and its patience:
-    /// waiting grows without bound, so that none is passed over for ever.
+    /// waiting grows without bound, so that none is passed over for ever. One that shows nothing yet
+    /// comes before all that do.
     [[nodiscard]] double urgency(std::size_t i) const {
         const ProbeView& probe = input_.probes[i];
         const double waited = 1.0 + static_cast<double>(probe.waiting);
-        return (0.01 + receivers_[i].share) * (1.0 + probe.speed) * waited * waited;
+        return (probe.ready ? 1.0 : 1e6) * (0.01 + receivers_[i].share) * (1.0 + probe.speed) *
+               waited * waited;
     }
     /// Probes that want faces: one that has been begun is finished before another is.
     [[nodiscard]] std::vector<std::size_t> inTurn() const {

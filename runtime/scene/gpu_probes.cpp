@@ -215,10 +215,8 @@ void GpuProbes::work(const plan::EffectPlan& plan, const Programs& programs,
             }
         }
         cubes.lastLevel = std::min(work.lastLevel, cubes.lit.levelCount() - 1);
-        filter_->fillMips(cubes.lit, cubes.lastLevel);
-        if (work.irradiance) {
-            filter_->fillIrradiance(cubes.lit, irradiance_, cubes.tile);
-        }
+        work.irradiance ? filter_->fill(cubes.lit, cubes.lastLevel, irradiance_, cubes.tile)
+                        : filter_->fillMips(cubes.lit, cubes.lastLevel);
     }
 }
 

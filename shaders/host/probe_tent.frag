@@ -12,16 +12,18 @@ flat in int vFace;
 
 layout(location = 0) out vec4 oRadiance;
 
+vec4 texelAt(float x, float y) {
+    return textureLod(uFirstProbe, lodestar_cubeDirection(vFace, x, y), 0.0);
+}
+
 void main() {
     vec2 center = gl_FragCoord.xy * (2.0 / uWidths.x) - 1.0;
-    float step = 1.5 / uWidths.y; // three quarters of the finer level's pitch
-    vec4 sum = vec4(0.0);
-    float weights = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        vec2 at = center + step * vec2((i & 1) == 0 ? -1.0 : 1.0, (i & 2) == 0 ? -1.0 : 1.0);
-        float weight = lodestar_texelDensity(at.x, at.y);
-        sum += weight * textureLod(uFirstProbe, lodestar_cubeDirection(vFace, at.x, at.y), 0.0);
-        weights += weight;
-    }
-    oRadiance = nearestHalf(sum / weights);
+    float reach = 1.5 / uWidths.y; // three quarters of the finer level's pitch
+    vec2 low = center - reach;
+    vec2 high = center + reach;
+    vec4 weights = vec4(lodestar_texelDensity(low.x, low.y), lodestar_texelDensity(high.x, low.y),
+                        lodestar_texelDensity(low.x, high.y), lodestar_texelDensity(high.x, high.y));
+    vec4 sum = weights.x * texelAt(low.x, low.y) + weights.y * texelAt(high.x, low.y) +
+               weights.z * texelAt(low.x, high.y) + weights.w * texelAt(high.x, high.y);
+    oRadiance = nearestHalf(sum / (weights.x + weights.y + weights.z + weights.w));
 }

@@ -187,15 +187,6 @@ LODESTAR_FN Real lodestar_meanTexelDensity(Real u, Real v, Real width) {
             lodestar_texelDensity(u - reach, v + reach) + lodestar_texelDensity(u + reach, v + reach));
 }
 
-/// The mean of that over the four fetches of a tent about a point, of a finer level's faces: what
-/// the tent takes of that level.
-LODESTAR_FN Real lodestar_tentDensity(Real u, Real v, Real finerWidth) {
-    Real reach = LODESTAR_LITERAL(1.5) / finerWidth; // three quarters of the finer level's pitch
-    return LODESTAR_LITERAL(0.25) *
-           (lodestar_texelDensity(u - reach, v - reach) + lodestar_texelDensity(u + reach, v - reach) +
-            lodestar_texelDensity(u - reach, v + reach) + lodestar_texelDensity(u + reach, v + reach));
-}
-
 /// The exponent of the lobe whose mean a texel of a round coarse level holds, so that read
 /// bilinearly it is the lobe wanted (MIP-12).
 /// @param exponent Phong, >= 0, of the lobe that the level is read for
