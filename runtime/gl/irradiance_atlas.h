@@ -12,8 +12,8 @@ namespace lodestar::gl {
 
 /// A tile's texels: lodestar_irradianceTexel's square with its border, beneath it rows for other
 /// values of the probe.
-inline constexpr int kTileWidth = 18;
-inline constexpr int kTileHeight = 20;
+inline constexpr int kTileWidth = 26;
+inline constexpr int kTileHeight = 28;
 
 class IrradianceAtlas {
 public:

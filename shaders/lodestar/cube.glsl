@@ -234,7 +234,7 @@ LODESTAR_FN vec3 lodestar_octahedralDirection(vec2 p) {
 }
 
 /// Texels of a side of a tile that holds a light probe's irradiance, without the border of one.
-LODESTAR_CONST Real LODESTAR_TILE_TEXELS = LODESTAR_LITERAL(16.0);
+LODESTAR_CONST Real LODESTAR_TILE_TEXELS = LODESTAR_LITERAL(24.0);
 
 /// Where a normal lies in such a tile, in texels from the border's corner.
 LODESTAR_FN vec2 lodestar_irradianceTexel(vec3 normal) {

@@ -136,11 +136,13 @@ TEST_F(ProbeFilterTest, LooksLikeTheCpusChain) {
         {"lamp at a corner", lamp({1, 1, 1}, 128), 0.09},
         {"lamp at a face's middle", lamp({0, 0, 1}, 128), 0.09},
         {"sky", lighting::cubeFromAnalytic(lighting::ClearSkyEnvironment{}, 128), 0.27},
-        {"faces", lighting::cubeFromAnalytic(
-                      lighting::FacesEnvironment{{glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 1),
-                                                  glm::dvec3(0, 1, 0), glm::dvec3(1, 0, 1),
-                                                  glm::dvec3(0, 0, 1), glm::dvec3(1, 1, 0)}},
-                      128)},
+        {"faces",
+         lighting::cubeFromAnalytic(
+             lighting::FacesEnvironment{{glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 1),
+                                         glm::dvec3(0, 1, 0), glm::dvec3(1, 0, 1),
+                                         glm::dvec3(0, 0, 1), glm::dvec3(1, 1, 0)}},
+             128),
+         0.02},
     };
     for (const Case& each : cases) {
         const Cubemap ours = filtered(each.base);
@@ -191,9 +193,9 @@ TEST_F(ProbeFilterTest, IrradianceIsThatOfNineCoefficients) {
         brightest = std::max(brightest, static_cast<double>(truth.g));
     }
     // Tents of 16 texels, as wide as 6 degrees, take 1.2 % of the second order and .4 % of the
-    // first; bilinear texels of 10 degrees of the tile h^2 / 8 of the second derivative, 4 for the
-    // first and 9 for the second order at a quarter: 2 %.
-    EXPECT_LT(worst, 0.03 * brightest);
+    // first. A bilinear fetch across a fold of the octahedron, where the slope turns by as much as
+    // it is, 1.5 a unit, is off by a quarter of a texel of 1 / 12 of it: 3 %.
+    EXPECT_LT(worst, 0.035 * brightest);
 }
 
 } // namespace

@@ -162,9 +162,9 @@ Tolerance roundExponentTolerance(const GlslCase&, const glm::dvec4& value, int) 
     return all(13.0 * u * (std::abs(value.x) + 2.0));
 }
 
-/// Coordinates times 8, of which each is off by 8 units, and two sums up to 17.
+/// Coordinates times 12, of which each is off by 8 units, and two sums up to 25.
 Tolerance tileTolerance(const GlslCase&, const glm::dvec4&, int) {
-    return all((8.0 * 8.0 + 2.0 * 17.0) * u);
+    return all((8.0 * 12.0 + 2.0 * 25.0) * u);
 }
 
 Tolerance intoVolumeTolerance(const GlslCase& inputs, const glm::dvec4&, int) {
