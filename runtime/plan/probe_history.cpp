@@ -36,37 +36,19 @@ std::string percent(double share) {
 }
 
 /// Marks the faces that see what has moved.
-void markMoved(ProbeHistory& history, const ProbeView& view, std::span<const Moved> moved) {
-    const bool fresh = !any(history.stale);
-    unsigned marked = 0;
-    int count = 0;
-    double fastest = 0.0;
-    std::string name;
-    for (const Moved& thing : moved) {
-        const unsigned faces = lighting::facesSeeing(view.position, view.capture.nearPlane,
-                                                     view.capture.farPlane, thing.low, thing.high);
-        if (faces == 0) {
-            continue;
-        }
-        ++count;
-        if (name.empty() || thing.speed > fastest) {
-            name = thing.subject;
-            fastest = std::max(fastest, thing.speed);
-        }
-        marked |= faces;
-        if (marked == 0x3fu && count > 1) {
-            break; // no more to be learnt
-        }
+void markMoved(ProbeHistory& history, const ProbeView& view, const MovedIndex& moved) {
+    const MovedIndex::Seen seen =
+        moved.from(view.position, view.capture.nearPlane, view.capture.farPlane);
+    if (seen.faces == 0) {
+        return;
     }
+    if (!any(history.stale)) {
+        history.because = seen.first->subject + (seen.more ? " and others moved" : " moved");
+    }
+    history.speed = std::max(history.speed, seen.first->speed);
     for (std::size_t face = 0; face < 6; ++face) {
-        if ((marked >> face & 1u) != 0) {
+        if ((seen.faces >> face & 1u) != 0) {
             mark(history, face);
-        }
-    }
-    if (count > 0) {
-        history.speed = std::max(history.speed, fastest);
-        if (fresh) {
-            history.because = count == 1 ? name + " moved" : name + " and others moved";
         }
     }
 }
@@ -89,7 +71,7 @@ void publish(ProbeHistory& history) {
     }
 }
 
-void markChanges(ProbeHistory& history, const ProbeView& view, std::span<const Moved> moved,
+void markChanges(ProbeHistory& history, const ProbeView& view, const MovedIndex& moved,
                  double lightThreshold) {
     using lighting::ProbeUpdate;
     const bool resting = !any(history.stale) && !any(history.drawn);
@@ -112,6 +94,38 @@ void markChanges(ProbeHistory& history, const ProbeView& view, std::span<const M
 
 } // namespace
 
+MovedIndex::MovedIndex(std::vector<Moved> moved) : moved_(std::move(moved)) {
+    std::vector<BoxTree::Box> boxes;
+    boxes.reserve(moved_.size());
+    for (const Moved& thing : moved_) {
+        boxes.push_back({thing.low, thing.high});
+    }
+    tree_ = BoxTree(std::move(boxes));
+}
+
+MovedIndex::Seen MovedIndex::from(const glm::vec3& position, double nearPlane,
+                                  double farPlane) const {
+    Seen seen;
+    const auto faces = [&](const BoxTree::Box& box) {
+        return lighting::facesSeeing(position, nearPlane, farPlane, box.low, box.high);
+    };
+    // Only what may tell of a face more is looked at; of one thing alone, whether there is another.
+    tree_.visit(
+        [&](const BoxTree::Box& box) {
+            const unsigned in = faces(box);
+            return (in & ~seen.faces) != 0 || (in != 0 && !seen.more);
+        },
+        [&](std::size_t index) {
+            const Moved& thing = moved_[index];
+            seen.more = seen.more || seen.first != nullptr;
+            if (seen.first == nullptr || thing.speed > seen.first->speed) {
+                seen.first = &thing;
+            }
+            seen.faces |= faces({thing.low, thing.high});
+        });
+    return seen;
+}
+
 double lightChange(const LightState& then, const LightState& now) {
     double change = 0.0;
     double sum = 0.0;
@@ -128,7 +142,7 @@ double lightChange(const LightState& then, const LightState& now) {
     return sum > 0.0 ? change / sum : std::numeric_limits<double>::infinity();
 }
 
-void observe(ProbeHistory& history, ProbeView& view, std::span<const Moved> moved,
+void observe(ProbeHistory& history, ProbeView& view, const MovedIndex& moved,
              const LightState& light, double lightThreshold) {
     using lighting::ProbeUpdate;
     ++history.sinceCapture;

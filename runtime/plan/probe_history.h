@@ -8,12 +8,12 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
+#include "plan/box_tree.h"
 #include "plan/probe_plan.h"
 
 namespace lodestar::plan {
@@ -23,6 +23,23 @@ struct Moved {
     std::string subject;
     glm::vec3 low{0.0f}, high{0.0f}; ///< world box about where it was and where it is
     double speed = 0.0;              ///< metres this frame
+};
+
+/// All that has moved, found by the faces that see it.
+class MovedIndex {
+public:
+    explicit MovedIndex(std::vector<Moved> moved = {});
+    /// What faces see of it.
+    struct Seen {
+        unsigned faces = 0;           ///< a set of bits, in OpenGL's order
+        const Moved* first = nullptr; ///< the fastest of those that told
+        bool more = false;            ///< there are others
+    };
+    [[nodiscard]] Seen from(const glm::vec3& position, double nearPlane, double farPlane) const;
+
+private:
+    std::vector<Moved> moved_;
+    BoxTree tree_;
 };
 
 /// What lights the world at a frame.
@@ -61,7 +78,7 @@ struct ProbeHistory {
 
 /// Marks what has changed since the frame before and fills the view's part that comes of it.
 /// `view`'s influence, position, capture, update, every, fromFile are set already.
-void observe(ProbeHistory& history, ProbeView& view, std::span<const Moved> moved,
+void observe(ProbeHistory& history, ProbeView& view, const MovedIndex& moved,
              const LightState& light, double lightThreshold);
 
 /// Notes what a plan has had done. @param light the frame's

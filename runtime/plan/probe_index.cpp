@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// Boxes of probes in a tree of halves, and the choice among those that a draw touches.
+// The choice among the probes that a draw touches.
 #include <algorithm>
 #include <numeric>
 #include <tuple>
 
+#include "plan/box_tree.h"
 #include "plan/probe_plan.h"
 
 namespace lodestar::plan {
 namespace {
-
-struct Branch {
-    glm::vec3 low{0.0f}, high{0.0f};
-    int first = 0; ///< of the order, of a leaf; else the first child, the second behind it
-    int count = 0; ///< of a leaf; 0: it has children
-};
-
-constexpr int kLeaf = 4;
-
-bool overlap(const glm::vec3& aLow, const glm::vec3& aHigh, const glm::vec3& bLow,
-             const glm::vec3& bHigh) {
-    return glm::all(glm::lessThanEqual(aLow, bHigh)) && glm::all(glm::lessThanEqual(bLow, aHigh));
-}
 
 /// A probe that touches a draw.
 struct Candidate {
@@ -39,75 +27,27 @@ double rest(double share) {
 
 struct ProbeIndex::State {
     std::span<const ProbeView> probes;
-    std::vector<int> rank;  ///< in the order of who stands in front, by probe
-    std::vector<int> order; ///< probes as the leaves hold them
-    std::vector<Branch> branches;
+    std::vector<int> rank; ///< in the order of who stands in front, by probe
+    std::vector<int> held; ///< the probe of each box
+    BoxTree tree;
 
-    void build(std::size_t branch, int first, int count);
-    void touching(const glm::vec3& low, const glm::vec3& high, std::vector<int>& out) const;
     [[nodiscard]] const lighting::PlacedVolume& volume(int probe) const {
         return *probes[static_cast<std::size_t>(probe)].influence;
     }
 };
 
-void ProbeIndex::State::build(std::size_t branch, int first, int count) {
-    const auto begin = order.begin() + first;
-    glm::vec3 low = volume(*begin).low, high = volume(*begin).high;
-    for (auto it = begin; it != begin + count; ++it) {
-        low = glm::min(low, volume(*it).low);
-        high = glm::max(high, volume(*it).high);
-    }
-    branches[branch] = {low, high, first, count};
-    if (count <= kLeaf) {
-        return;
-    }
-    const glm::vec3 size = high - low;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const int half = count / 2;
-    std::nth_element(begin, begin + half, begin + count, [&](int a, int b) {
-        return volume(a).low[axis] + volume(a).high[axis] <
-               volume(b).low[axis] + volume(b).high[axis];
-    });
-    const std::size_t children = branches.size();
-    branches.resize(children + 2);
-    branches[branch].first = static_cast<int>(children);
-    branches[branch].count = 0;
-    build(children, first, half);
-    build(children + 1, first + half, count - half);
-}
-
-void ProbeIndex::State::touching(const glm::vec3& low, const glm::vec3& high,
-                                 std::vector<int>& out) const {
-    std::array<std::size_t, 64> left{}; // a tree of halves is as deep as a count has bits
-    std::size_t depth = branches.empty() ? 0 : 1;
-    while (depth > 0) {
-        const Branch& branch = branches[left[--depth]];
-        if (!overlap(branch.low, branch.high, low, high)) {
-            continue;
-        }
-        if (branch.count == 0) {
-            left[depth++] = static_cast<std::size_t>(branch.first);
-            left[depth++] = static_cast<std::size_t>(branch.first) + 1;
-            continue;
-        }
-        for (int i = branch.first; i < branch.first + branch.count; ++i) {
-            const int probe = order[static_cast<std::size_t>(i)];
-            if (overlap(volume(probe).low, volume(probe).high, low, high)) {
-                out.push_back(probe);
-            }
-        }
-    }
-}
-
 ProbeIndex::ProbeIndex(std::span<const ProbeView> probes) : state_(std::make_unique<State>()) {
     State& state = *state_;
     state.probes = probes;
+    std::vector<BoxTree::Box> boxes;
     for (std::size_t i = 0; i < probes.size(); ++i) {
         if (probes[i].influence) {
-            state.order.push_back(static_cast<int>(i));
+            state.held.push_back(static_cast<int>(i));
+            boxes.push_back({probes[i].influence->low, probes[i].influence->high});
         }
     }
-    std::vector<int> front = state.order;
+    state.tree = BoxTree(std::move(boxes));
+    std::vector<int> front = state.held;
     std::sort(front.begin(), front.end(), [&](int a, int b) {
         const auto key = [&](int probe) {
             return std::tuple(-probes[static_cast<std::size_t>(probe)].priority,
@@ -119,10 +59,6 @@ ProbeIndex::ProbeIndex(std::span<const ProbeView> probes) : state_(std::make_uni
     for (std::size_t i = 0; i < front.size(); ++i) {
         state.rank[static_cast<std::size_t>(front[i])] = static_cast<int>(i);
     }
-    if (!state.order.empty()) {
-        state.branches.resize(1);
-        state.build(0, 0, static_cast<int>(state.order.size()));
-    }
 }
 
 ProbeIndex::~ProbeIndex() = default;
@@ -130,7 +66,12 @@ ProbeIndex::~ProbeIndex() = default;
 void ProbeIndex::touching(const glm::vec3& low, const glm::vec3& high,
                           std::vector<int>& out) const {
     const auto first = static_cast<std::ptrdiff_t>(out.size());
-    state_->touching(low, high, out);
+    state_->tree.visit(
+        [&](const BoxTree::Box& box) {
+            return glm::all(glm::lessThanEqual(box.low, high)) &&
+                   glm::all(glm::lessThanEqual(low, box.high));
+        },
+        [&](std::size_t box) { out.push_back(state_->held[box]); });
     std::sort(out.begin() + first, out.end(), [&](int a, int b) {
         return state_->rank[static_cast<std::size_t>(a)] <
                state_->rank[static_cast<std::size_t>(b)];

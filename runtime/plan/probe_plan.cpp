@@ -119,8 +119,8 @@ private:
                (receivers_[i].count > 0 || inProgress(i));
     }
     /// The picture's share of what it lights, the speed of what moved before it, and its patience:
-    /// waiting grows without bound, so that none is passed over for ever. One that shows nothing yet
-    /// comes before all that do.
+    /// waiting grows without bound, so that none is passed over for ever. One that shows nothing
+    /// yet comes before all that do.
     [[nodiscard]] double urgency(std::size_t i) const {
         const ProbeView& probe = input_.probes[i];
         const double waited = 1.0 + static_cast<double>(probe.waiting);

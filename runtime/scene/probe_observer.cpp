@@ -120,8 +120,7 @@ void ProbeObserver::addMovedLights(std::vector<plan::Moved>& moved) {
 void ProbeObserver::describe(const plan::LightState& light, bool drawsKept, double lightThreshold,
                              plan::PlanInput& input) {
     light_ = light;
-    const std::vector<plan::Moved> moved =
-        drawsKept ? std::vector<plan::Moved>() : this->moved(input);
+    const plan::MovedIndex moved(drawsKept ? std::vector<plan::Moved>() : this->moved(input));
     input.probes.resize(places_.size());
     for (std::size_t i = 0; i < places_.size(); ++i) {
         plan::ProbeView& view = input.probes[i];

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -63,11 +64,11 @@ public:
 
     EffectPlan frame() {
         input.probes.clear();
+        const MovedIndex index(std::exchange(moved, {}));
         for (std::size_t i = 0; i < probes_.size(); ++i) {
             input.probes.push_back(viewOf(probes_[i]));
-            observe(histories_[i], input.probes.back(), moved, light, threshold);
+            observe(histories_[i], input.probes.back(), index, light, threshold);
         }
-        moved.clear();
         EffectPlan result = plan(input);
         for (std::size_t i = 0; i < probes_.size(); ++i) {
             executed(histories_[i], i, result, light);
