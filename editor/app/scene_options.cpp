@@ -178,6 +178,7 @@ core::Result<scene::RenderSettings> renderSettings(const SceneOptions& options) 
     settings.backdrop = !options.noBackdrop;
     settings.seamless = !options.faceSeams;
     settings.faceBudget = options.faceBudget.value_or(settings.faceBudget);
+    settings.lightThreshold = options.lightThreshold;
     if (!options.materialOverride.empty()) {
         auto values = parseOverride(options.materialOverride);
         if (!values) {
@@ -237,6 +238,13 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
         .add_option("--budget-faces", options.faceBudget,
                     "Faces of light probes drawn in a frame, at most (default: all that are due)")
         ->check(CLI::Range(0, 1000000));
+    command
+        .add_option(
+            "--light-threshold", options.lightThreshold,
+            "Light probes are captured again where the light that bounces off what they see may\n"
+            "have changed by more than that share; a changed sky is composed in any case")
+        ->check(CLI::Range(0.0, 1e9))
+        ->capture_default_str();
     command.add_flag("--no-backdrop", options.noBackdrop, "Background 0 with alpha 0");
     command.add_flag("--face-seams", options.faceSeams,
                      "Filter each cube face on its own, to see what seamless filtering mends");

@@ -36,6 +36,7 @@ struct SceneOptions {
     std::string specular, diffuse;
     std::string materialOverride;
     std::optional<int> faceBudget; ///< faces of light probes a frame
+    double lightThreshold = scene::RenderSettings().lightThreshold;
     bool noBackdrop = false;
     bool faceSeams = false;
     int cubeWidth = io::kDefaultCubeWidth;

@@ -213,7 +213,7 @@ void planRsrmLights(const PlanInput& input, const Receivers& receivers, EffectPl
         batchesOf(input, {}, casters, static_cast<std::size_t>(visible));
     for (std::size_t i = 0; i < input.rsrmLights.size(); ++i) {
         const RsrmLightView& light = input.rsrmLights[i];
-        LitLight lit{i, false, -1, false};
+        LitLight lit{i, false, -1, false, light.sky};
         Effect blend = blendEffect(input, receivers, light);
         lit.blend = blend.decision == Decision::Run;
         result.effects.push_back(std::move(blend));

@@ -99,6 +99,7 @@ struct RsrmLightView {
     bool changed = true;           ///< its blend of keys, since it was uploaded
     std::uint64_t texels = 0;      ///< of its map and gradient
     std::uint64_t uploadBytes = 0; ///< of the same
+    bool sky = false;              ///< else a sun
     int shadow = -1;               ///< its layer of the shadow maps; -1: it casts none
     bool shadowChanged = true;     ///< it or a caster moved since that was drawn
     bool operator==(const RsrmLightView&) const = default;
@@ -171,6 +172,7 @@ struct LitLight {
     bool blend = false;      ///< its map is made and uploaded in this frame
     int shadow = -1;         ///< layer of its shadow map; -1: nothing is hidden from it
     bool drawShadow = false; ///< that is drawn in this frame
+    bool sky = false;        ///< it stands behind what light probes have captured
     bool operator==(const LitLight&) const = default;
 };
 

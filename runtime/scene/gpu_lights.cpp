@@ -79,6 +79,7 @@ std::vector<plan::RsrmLightView> GpuLights::describe(double hour) {
         view.changed = light.uploaded != lighting::LightMap::contentOf(light.moment);
         view.texels = light.map.uploadTexels();
         view.uploadBytes = light.map.uploadBytes();
+        view.sky = isSky(i);
         view.shadow = light.shadow;
         views.push_back(std::move(view));
     }

@@ -112,6 +112,17 @@ gl::Defines skyDefines(plan::Features features, const plan::EffectPlan& plan) {
     return defines;
 }
 
+/// Of a composition: which of the lights are skies, by bit.
+gl::Defines compositionDefines(const plan::EffectPlan& plan) {
+    gl::Defines defines = skyDefines(plan.skyFeatures, plan);
+    unsigned skies = 0;
+    for (std::size_t i = 0; i < plan.rsrmLights.size(); ++i) {
+        skies |= plan.rsrmLights[i].sky ? 1u << i : 0u;
+    }
+    defines.emplace_back("LODESTAR_SKIES", std::to_string(skies) + "u");
+    return defines;
+}
+
 } // namespace
 
 core::Result<void> Programs::add(Variants& variants, const char* vertexFile,
@@ -167,7 +178,7 @@ core::Result<void> Programs::compile(const plan::PlanInput& input, const plan::E
                                       [](const plan::ProbeWork& work) { return work.compose; });
     if (composes) {
         if (auto made = add(compositions_, "host/present.vert", "host/probe_compose.frag",
-                            skyDefines(plan.skyFeatures, plan));
+                            compositionDefines(plan));
             !made) {
             return made;
         }
@@ -203,7 +214,7 @@ const gl::Program& Programs::seenSuns() const {
 }
 
 const gl::Program& Programs::composition(const plan::EffectPlan& plan) const {
-    return compositions_.at(skyDefines(plan.skyFeatures, plan)).program;
+    return compositions_.at(compositionDefines(plan)).program;
 }
 
 } // namespace lodestar::scene

@@ -170,6 +170,61 @@ TEST_F(ProbeMotion, AComposedSkyIsWhatACameraSees) {
     }
 }
 
+/// All texels of what a probe lights with.
+std::vector<double> lightOf(const scene::Renderer& renderer) {
+    std::vector<double> all;
+    for (int face = 0; face < 6; ++face) {
+        const core::Image image = renderer.readProbe(0, face);
+        for (std::size_t i = 0; i < image.pixels().size(); ++i) {
+            if (i % 4 < 3) {
+                all.push_back(static_cast<double>(image.pixels()[i]));
+            }
+        }
+    }
+    return all;
+}
+
+// Dusk with walls that bounce light: composed skies, and bounces captured again beyond the
+// threshold, against a capture at each hour. What is kept is off by at most the threshold of what
+// bounces, over the part that is left of it.
+TEST_F(ProbeMotion, TheThresholdKeepsItsPromise) {
+    ProbeWorld world = yard(0.6f);
+    lighting::Probe& probe = world.probe("yard", {0, 2.2, 2.5}, {12, 8, 12}, 0.5);
+    probe.capture.resolution = 64;
+    const scene::Scene scene = world.make();
+    const scene::View view = testing::lookAt(scene, {3, 3, 5}, {0, 1, 0});
+    for (const double threshold : {0.05, 0.1, 0.3, 1e9}) {
+        auto kept = rendererOf(scene);
+        kept->setLights({dusk()});
+        auto fresh = rendererOf(scene);
+        fresh->setLights({dusk()});
+        scene::RenderSettings settings = small(8);
+        double worst = 0.0;
+        std::uint64_t faces = 0;
+        for (double hour = 16.0; hour <= 20.0; hour += 0.2) {
+            settings.hour = hour;
+            settings.lightThreshold = threshold;
+            faces += frameOf(*kept, view, settings).counters.probeFaces;
+            fresh->requestProbe(0);
+            EXPECT_EQ(frameOf(*fresh, view, settings).counters.probeFaces, 6u);
+            const std::vector<double> a = lightOf(*kept), b = lightOf(*fresh);
+            double off = 0.0, sum = 0.0;
+            for (std::size_t i = 0; i < a.size(); ++i) {
+                off += std::abs(a[i] - b[i]);
+                sum += b[i];
+            }
+            worst = std::max(worst, off / sum);
+        }
+        std::printf("threshold %g: %.4f of the mean at most, %d faces of 126\n", threshold, worst,
+                    static_cast<int>(faces));
+        if (threshold < 1.0) {
+            EXPECT_LT(worst, threshold / (1.0 - threshold));
+        } else {
+            EXPECT_GT(worst, 0.1); // what is never captured again goes wrong
+        }
+    }
+}
+
 TEST_F(ProbeMotion, NothingIsLitByItself) {
     ProbeWorld world;
     world.room({-2, 0, -2}, {2, 3, 2}, 0.3f, blinnPhong(glm::vec3(1.0f), glm::vec3(0.0f), 0.0f));
