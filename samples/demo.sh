@@ -35,7 +35,7 @@ export LIBGL_ALWAYS_SOFTWARE=${LIBGL_ALWAYS_SOFTWARE:-1}
 out=out/demo
 assets=$out/assets
 parts=$out/parts
-total=14
+total=16
 step=0
 started=$SECONDS
 
@@ -195,8 +195,31 @@ next "the golden hour"
 render $out/golden_hour.png terrace --size 1280x720 --camera terrace --hour 18 \
     --lighting samples/skies/golden_hour.lodestar.json
 
+next "light probes through an evening"
+probes="--lighting samples/skies/lift.lodestar.json"
+rows=""
+for camera in courtyard hall lift; do
+    rows="$rows --row $camera"
+    for hour in 9 17.5 19 21; do
+        render "$camera-$hour" lift --size 308x193 --camera $camera --hour $hour $probes
+        rows="$rows $parts/$camera-$hour.png"
+    done
+done
+# shellcheck disable=SC2086
+sheet lift --title "Light probes" \
+    --note "Five probes; the sky is composed behind what they captured, the hall keeps it out" \
+    --columns "9:00|17:30|19:00|21:00" $rows
+
+next "a walk into the hall, two faces of probes a frame"
+# shellcheck disable=SC2086
+build/lodestar render "$assets/lift.gltf" --size 246x154 --animation walk --frames 100 --fps 5 --hour 17.5 --hours-per-second 0.1 \
+    --budget-faces 2 $probes -o "$parts/walk-%04d.png" --stats "$parts/walk.json" || stop "the walk could not be rendered"
+sheet walk --title "A walk" --note "From 17:30 to 19:30; the lift moves, and never more than two faces are drawn in a frame" \
+    --columns "0 s|4 s|8 s|12 s|19 s" --row "" "$parts/walk-0000.png" "$parts/walk-0020.png" "$parts/walk-0040.png" \
+    "$parts/walk-0060.png" "$parts/walk-0095.png"
+
 echo "done in $((SECONDS - started)) s; look at:"
-for picture in figure1 figure2 figure3 ashikhmin seams estimators terrace table day hours golden_hour; do
+for picture in figure1 figure2 figure3 ashikhmin seams estimators terrace table day hours golden_hour lift walk; do
     echo "    $out/$picture.png"
 done
 
