@@ -212,11 +212,11 @@ sheet lift --title "Light probes" \
 
 next "a walk into the hall, two faces of probes a frame"
 # shellcheck disable=SC2086
-build/lodestar render "$assets/lift.gltf" --size 246x154 --animation walk --frames 100 --fps 5 --hour 17.5 --hours-per-second 0.1 \
+build/lodestar render "$assets/lift.gltf" --size 246x154 --camera Walker --animation walk --frames 100 --fps 5 --hour 17.5 --hours-per-second 0.1 \
     --budget-faces 2 $probes -o "$parts/walk-%04d.png" --stats "$parts/walk.json" || stop "the walk could not be rendered"
 sheet walk --title "A walk" --note "From 17:30 to 19:30; the lift moves, and never more than two faces are drawn in a frame" \
-    --columns "0 s|4 s|8 s|12 s|19 s" --row "" "$parts/walk-0000.png" "$parts/walk-0020.png" "$parts/walk-0040.png" \
-    "$parts/walk-0060.png" "$parts/walk-0095.png"
+    --columns "0 s|6 s|10 s|16 s|20 s" --row "" "$parts/walk-0000.png" "$parts/walk-0030.png" "$parts/walk-0050.png" \
+    "$parts/walk-0080.png" "$parts/walk-0099.png"
 
 echo "done in $((SECONDS - started)) s; look at:"
 for picture in figure1 figure2 figure3 ashikhmin seams estimators terrace table day hours golden_hour lift walk; do

@@ -93,7 +93,9 @@ World lobby(lighting::ProbeUpdate update = lighting::ProbeUpdate::OnChange) {
 std::string captureText(const EffectPlan& plan, const std::string& subject) {
     for (const Effect& effect : plan.effects) {
         if (effect.effect == "probe-capture" && effect.subject == subject) {
-            return (effect.decision == Decision::Run ? "" : "skipped: ") + effect.reason;
+            return effect.decision == Decision::Run
+                       ? effect.reason
+                       : std::string("skipped: ").append(effect.reason);
         }
     }
     return "none";
@@ -285,7 +287,8 @@ TEST(ProbePlan, TheBudgetHoldsAndNoneStarves) {
     std::vector<lighting::Probe> probes;
     World world{std::vector<lighting::Probe>()};
     for (int i = 0; i < kProbes; ++i) {
-        world.probes().push_back(probeAt("p" + std::to_string(i), {10.0 * i, 0, 0}, 9.0, 1.0));
+        world.probes().push_back(
+            probeAt(std::string("p").append(std::to_string(i)), {10.0 * i, 0, 0}, 9.0, 1.0));
         world.histories().emplace_back();
         world.input.draws.push_back(drawAt({10.0f * static_cast<float>(i), 0, 1}));
         world.input.draws.back().screenShare = unit(random);
