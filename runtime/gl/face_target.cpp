@@ -16,8 +16,7 @@ GLenum faceOf(int face) {
 /// A colour and a depth sample.
 constexpr std::size_t kSampleBytes = 8 + 4;
 
-void countPass(Device& device, int width) {
-    ++device.counters().passes;
+void countTexels(Device& device, int width) {
     device.counters().texelsWritten +=
         static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(width);
 }
@@ -93,7 +92,8 @@ void FaceTarget::begin() {
     glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
     glClearDepth(1.0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    countPass(*device_, width_);
+    ++device_->counters().passes;
+    countTexels(*device_, width_);
 }
 
 void FaceTarget::resolve(const Texture& cube, int face) {
@@ -101,7 +101,7 @@ void FaceTarget::resolve(const Texture& cube, int face) {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_);
     glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, faceOf(face), cube.id(), 0);
     glBlitFramebuffer(0, 0, width_, width_, 0, 0, width_, width_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    countPass(*device_, width_);
+    countTexels(*device_, width_);
 }
 
 CubeFaces::CubeFaces(Device& device) : device_(&device) {
@@ -132,7 +132,8 @@ void CubeFaces::begin(const Texture& cube, int face) {
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, faceOf(face), cube.id(), 0);
     glViewport(0, 0, cube.width(), cube.width());
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    countPass(*device_, cube.width());
+    ++device_->counters().passes;
+    countTexels(*device_, cube.width());
 }
 
 void CubeFaces::copy(const Texture& from, const Texture& to, int face) {
@@ -142,7 +143,7 @@ void CubeFaces::copy(const Texture& from, const Texture& to, int face) {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, draw_);
     glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, faceOf(face), to.id(), 0);
     glBlitFramebuffer(0, 0, width, width, 0, 0, width, width, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    countPass(*device_, width);
+    countTexels(*device_, width);
 }
 
 } // namespace lodestar::gl

@@ -28,6 +28,7 @@ bool finite(const glm::dmat4& m) {
 /// A frame whose axes span less than that share of a cube of their lengths is flat: of a matrix of
 /// floats the inverse has no digits left there.
 constexpr double kFlat = 1e-7;
+constexpr float kGreatest = 1e18f; ///< half extents whose squares are floats
 
 bool flat(const glm::dmat3& m) {
     const double lengths = glm::length(m[0]) * glm::length(m[1]) * glm::length(m[2]);
@@ -103,7 +104,12 @@ std::optional<PlacedVolume> place(const ProbeVolume& volume, const glm::mat4& wo
     const glm::dvec3 half = 0.5 * volume.size;
     const bool inside = half.x > 0.0 && half.y > 0.0 && half.z > 0.0 && std::isfinite(half.x) &&
                         std::isfinite(half.y) && std::isfinite(half.z);
-    if (!inside || !finite(worldFromVolume) || flat(glm::dmat3(worldFromVolume))) {
+    const bool blends = std::all_of(volume.blend.begin(), volume.blend.end(), [](double blend) {
+        return std::isfinite(static_cast<float>(blend));
+    });
+    const bool small = glm::all(glm::lessThan(glm::vec3(half), glm::vec3(kGreatest)));
+    if (!inside || !blends || !small || !finite(worldFromVolume) ||
+        flat(glm::dmat3(worldFromVolume))) {
         return std::nullopt;
     }
     const glm::dmat4 volumeFromWorld = glm::inverse(worldFromVolume);
@@ -152,6 +158,11 @@ float meanWeight(const PlacedVolume& placed, const glm::vec3& low, const glm::ve
         const glm::dvec4 row(volume.rows[static_cast<std::size_t>(i)]);
         center[i] = glm::dot(row, glm::dvec4(worldCenter, 1.0));
         half[i] = glm::dot(glm::abs(glm::dvec3(row)), worldHalf);
+    }
+    for (int i = 0; i < 3; ++i) {
+        if (!std::isfinite(center[i]) || !std::isfinite(half[i])) {
+            return 0.0f; // of what is everywhere, or nowhere
+        }
     }
     double weight = 1.0;
     if (volume.sphere) {

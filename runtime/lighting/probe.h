@@ -75,14 +75,14 @@ struct PlacedVolume {
 };
 
 /// A volume as its node carries it. @param outward blend lies outside its faces (interiors)
-/// @return nothing where it has no inside: a size of zero, a singular frame, or one that is not
-/// finite
+/// @return nothing where it has no inside: a size of zero or beyond 1e18 m, a singular frame, a
+/// number that is not finite
 [[nodiscard]] std::optional<PlacedVolume> place(const ProbeVolume& volume,
                                                 const glm::mat4& worldFromNode, bool outward);
 
 /// The mean weight of a volume over a world box, [0, 1]: that of its local box for a box, that over
 /// the box's range of distances for a sphere. Continuous in the box; the point's own weight where
-/// the box is a point.
+/// the box is a point, 0 where it is not finite.
 [[nodiscard]] float meanWeight(const PlacedVolume& placed, const glm::vec3& low,
                                const glm::vec3& high);
 

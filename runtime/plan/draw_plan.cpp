@@ -138,6 +138,27 @@ void planDraws(const PlanInput& input, const std::vector<ProbeChoice>& choices,
     describeDraws(input, result);
 }
 
+namespace {
+
+/// The calls that the faces of each probe take, to its capture's cost.
+void addFaceDraws(const PlanInput& input, EffectPlan& result) {
+    std::vector<std::uint64_t> draws(input.probes.size());
+    for (const ProbeFace& face : result.probeFaces) {
+        draws[face.probe] += face.batches.size();
+    }
+    std::size_t capture = 0; // hosts' own come first
+    for (Effect& effect : result.effects) {
+        if (effect.effect == "probe-capture") {
+            if (capture >= input.captures.size()) {
+                effect.cost.draws = draws[capture - input.captures.size()];
+            }
+            ++capture;
+        }
+    }
+}
+
+} // namespace
+
 void planFaces(const PlanInput& input, const ProbeIndex& index, EffectPlan& result) {
     const Features lights = lightFeatures(input, result);
     std::size_t before = result.drawOrder.size() + result.casters.size();
@@ -162,6 +183,9 @@ void planFaces(const PlanInput& input, const ProbeIndex& index, EffectPlan& resu
             face.drawFeatures.push_back(
                 featuresOf(input, input.draws[draw], lights, choices[draw]));
         }
+    }
+    if (!result.probeFaces.empty()) {
+        addFaceDraws(input, result);
     }
 }
 

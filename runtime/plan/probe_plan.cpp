@@ -86,6 +86,47 @@ std::uint64_t faceTexels(const ProbeView& probe) {
     return width * width;
 }
 
+int widthOf(const ProbeView& probe, int level) {
+    return std::max(probe.capture.resolution >> level, 1);
+}
+
+/// The finest level that is at most so wide.
+int levelOfWidth(const ProbeView& probe, int width) {
+    int level = 0;
+    while (widthOf(probe, level) > width) {
+        ++level;
+    }
+    return level;
+}
+
+/// What gl/probe_filter.h does for levels 1 to a last one: a pass for each tent, as far down as
+/// round levels read them, one for each round level, and where there are any, sums, scales and what
+/// they scale.
+Cost mipCost(const ProbeView& probe, int last) {
+    const int wide = levelOfWidth(probe, 16);
+    const int narrow = levelOfWidth(probe, 4);
+    const bool summed = last > narrow && widthOf(probe, last) <= 2;
+    const int tents = summed ? narrow : std::min(last, wide);
+    const bool round = wide > 0 && last >= wide;
+    Cost cost;
+    const auto addLevels = [&](int first, int end) {
+        for (int level = first; level <= end; ++level) {
+            const auto width = static_cast<std::uint64_t>(widthOf(probe, level));
+            cost.texelsWritten += 6 * width * width;
+            ++cost.passes;
+        }
+    };
+    addLevels(1, tents);
+    addLevels(wide + 1, last);
+    if (round) {
+        addLevels(wide, wide);
+        addLevels(wide, last);
+        cost.passes += 2;
+    }
+    cost.draws = cost.passes;
+    return cost;
+}
+
 std::string exponentText(double exponent) {
     return exponent < 1e7 ? std::to_string(std::llround(exponent)) : std::string("a mirror");
 }
@@ -218,7 +259,9 @@ private:
                          : probe.fadeLeft > 0 ? "composed: what was published fades in"
                          : probe.fromFile     ? "composed: a file's light is shown"
                                               : "composed again: the sky has changed";
-        compose.cost = {6, 6, 6 * faceTexels(probe), 0};
+        // And one for what it sees of suns.
+        const std::uint64_t suns = input_.rsrmLights.empty() ? 0 : 1;
+        compose.cost = {6 + suns, 6 + suns, 6 * faceTexels(probe) + suns * 26 * 2, 0};
         result_.effects.push_back(std::move(compose));
         if (work.lastLevel > 0) {
             Effect mips{"probe-mips", probe.subject, Decision::Run, {}, {}};
@@ -227,12 +270,7 @@ private:
                 mips.reason += ", for exponents " + exponentText(lit.bluntest) + " to " +
                                exponentText(lit.sharpest);
             }
-            for (int level = 1; level <= work.lastLevel; ++level) {
-                const std::uint64_t width =
-                    std::max(static_cast<std::uint64_t>(probe.capture.resolution) >> level,
-                             std::uint64_t{1});
-                mips.cost.texelsWritten += 6 * width * width;
-            }
+            mips.cost = mipCost(probe, work.lastLevel);
             result_.effects.push_back(std::move(mips));
         }
         if (work.irradiance) {
@@ -240,7 +278,7 @@ private:
                                        probe.subject,
                                        Decision::Run,
                                        "visible diffuse surfaces are lit by it",
-                                       {}});
+                                       {3, 3, 26 * 26, 0}});
         }
     }
 

@@ -74,12 +74,23 @@ LODESTAR_FN LodestarShares lodestar_probeShares(Real w0, Real w1, Real f0, Real 
     return shares;
 }
 
+/// A step in a volume's frame as one of the world. @pre the frame is not sheared
+LODESTAR_FN vec3 lodestar_outOfVolume(LodestarVolume volume, vec3 step) {
+    vec3 x = vec3(volume.rowX);
+    vec3 y = vec3(volume.rowY);
+    vec3 z = vec3(volume.rowZ);
+    Real least = LODESTAR_LITERAL(1e-30);
+    return x * (step.x / max(dot(x, x), least)) + y * (step.y / max(dot(y, y), least)) +
+           z * (step.z / max(dot(z, z), least));
+}
+
 /// Where a ray leaves a volume, seen from where the probe captured: the direction of its lookup. A
 /// point outside is taken to the volume's surface first, so that nothing jumps at a face.
 /// @param direction unit, in the world  @param captured where the probe captured, in the world
 /// @return not unit; the direction itself where the ray meets nothing
 LODESTAR_FN vec3 lodestar_parallax(LodestarVolume volume, vec3 captured, vec3 world, vec3 direction) {
-    vec3 p = lodestar_intoVolume(volume, world);
+    vec3 inside = lodestar_intoVolume(volume, world);
+    vec3 p = inside;
     vec3 d = vec3(dot(vec3(volume.rowX), direction), dot(vec3(volume.rowY), direction),
                   dot(vec3(volume.rowZ), direction));
     Real t = 0.0f;
@@ -102,7 +113,7 @@ LODESTAR_FN vec3 lodestar_parallax(LodestarVolume volume, vec3 captured, vec3 wo
             return direction;
         }
     }
-    return world + t * direction - captured;
+    return world + lodestar_outOfVolume(volume, p - inside) + t * direction - captured;
 }
 
 LODESTAR_END

@@ -171,6 +171,11 @@ Tolerance intoVolumeTolerance(const GlslCase& inputs, const glm::dvec4&, int) {
     return all(pointError(inputs) + 1e-30);
 }
 
+/// Rows of a turn have length 1: three quotients, products and sums of at most 1 each.
+Tolerance outOfVolumeTolerance(const GlslCase&, const glm::dvec4&, int) {
+    return all(3.0 * 8.0 * u);
+}
+
 /// Six fades, each as steep as 1.5 over its blend, of distances that are off by the point's error
 /// and two sums of up to 14 m.
 Tolerance volumeWeightTolerance(const GlslCase& inputs, const glm::dvec4&, int) {

@@ -62,6 +62,7 @@ ToleranceFunction meanDensityTolerance;
 ToleranceFunction roundExponentTolerance;
 ToleranceFunction tileTolerance;
 ToleranceFunction intoVolumeTolerance;
+ToleranceFunction outOfVolumeTolerance;
 ToleranceFunction volumeWeightTolerance;
 ToleranceFunction parallaxTolerance;
 

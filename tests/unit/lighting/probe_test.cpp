@@ -155,9 +155,50 @@ TEST(ProbeVolumes, WithoutAnInsideThereIsNone) {
             }
         }
     }
+    for (const double bad : {static_cast<double>(nan), static_cast<double>(infinity), 1e39}) {
+        ProbeVolume broken;
+        broken.size.x = bad;
+        EXPECT_FALSE(place(broken, glm::mat4(1.0f), true).has_value());
+        broken = {};
+        broken.blend[2] = bad;
+        EXPECT_FALSE(place(broken, glm::mat4(1.0f), true).has_value());
+    }
+    const auto sound = place(ProbeVolume(), glm::mat4(1.0f), false);
+    EXPECT_EQ(meanWeight(*sound, glm::vec3(-infinity), glm::vec3(infinity)), 0.0f);
+    EXPECT_EQ(meanWeight(*sound, glm::vec3(nan), glm::vec3(1.0f)), 0.0f);
     for (const glm::dvec3& size : {glm::dvec3(1, 0, 1), glm::dvec3(-1, 1, 1), glm::dvec3(0.0)}) {
         volume.size = size;
         EXPECT_FALSE(place(volume, glm::mat4(1.0f), false).has_value());
+    }
+}
+
+// A ray from a point in a room, on its wall or beyond it meets the walls where geometry says; from
+// beyond it starts at the wall.
+TEST(ProbeParallax, MeetsTheWallsWhereTheyAre) {
+    Draw draw(6);
+    for (int i = 0; i < 4000; ++i) {
+        const glm::vec3 half(5.0f, 3.0f, 4.0f);
+        ProbeVolume volume;
+        volume.size = glm::dvec3(2.0f * half);
+        const glm::mat4 frame = glm::rotate(glm::translate(glm::mat4(1.0f), draw.within(3.0f)),
+                                            draw.uniform(0, 6), glm::vec3(0, 1, 0));
+        const auto placed = place(volume, frame, false);
+        const glm::vec3 local = draw.within(1.0f) * half * (i % 2 == 0 ? 1.0f : 1.3f);
+        const glm::vec3 start = glm::clamp(local, -half, half);
+        const glm::vec3 d = glm::normalize(draw.within(1.0f));
+        const glm::vec3 captured = 0.5f * draw.within(1.0f) * half;
+        float t = 1e30f;
+        for (int axis = 0; axis < 3; ++axis) {
+            const float wall = d[axis] > 0.0f ? half[axis] : -half[axis];
+            t = std::min(t, std::max((wall - start[axis]) / d[axis], 0.0f));
+        }
+        const glm::vec3 truth = glm::normalize(start + t * d - captured);
+        const glm::vec3 lookup = shader::lodestar_parallax(
+            inShaders(*placed), glm::vec3(frame * glm::vec4(captured, 1.0f)),
+            glm::vec3(frame * glm::vec4(local, 1.0f)), glm::mat3(frame) * d);
+        const glm::vec3 found = glm::normalize(glm::transpose(glm::mat3(frame)) * lookup);
+        // A texel of 256 is .006 to .012 radians; floats of 10 m keep 1e-5 of it.
+        EXPECT_LT(glm::length(found - truth), 1e-4f) << i;
     }
 }
 
