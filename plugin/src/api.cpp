@@ -379,7 +379,12 @@ LodestarStatus glslText(const char* file, const LodestarDialect* dialect, char* 
 }
 
 const void* getExtension(const char* id) noexcept {
-    return id != nullptr && std::strcmp(id, LODESTAR_EXTENSION_GL) == 0 ? glApi() : nullptr;
+    if (id == nullptr) {
+        return nullptr;
+    }
+    return std::strcmp(id, LODESTAR_EXTENSION_GL) == 0       ? glApi()
+           : std::strcmp(id, LODESTAR_EXTENSION_PROBES) == 0 ? probesApi()
+                                                             : nullptr;
 }
 
 LodestarApi table() {

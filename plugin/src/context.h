@@ -87,6 +87,8 @@ struct PlacedLight {
     std::uint64_t planned = 0;              ///< the version that a plan last asked for
     std::optional<std::uint64_t> blended{}; ///< the version that the blend is of
     std::shared_ptr<const lighting::LightMap::Blend> blend{};
+    std::vector<glm::dvec3>
+        facing{}; ///< by key, irradiance over pi of what faces it; when asked for
 };
 
 /// A failed call: what is returned, and why in words.
@@ -113,6 +115,11 @@ struct LodestarContext {
     lodestar::plugin::Slots<lodestar::document::Document> documents;
     lodestar::plugin::Slots<lodestar::plugin::PlacedEnvironment> environments;
     LodestarEnvironment environment = 0; ///< the distant one
+    lodestar::plugin::Slots<lodestar::plugin::PlacedProbe> probes;
+    std::vector<LodestarProbe> probeOrder;             ///< as made
+    std::optional<lodestar::plugin::BoxedFrame> boxes; ///< of the next plan
+    /// Of the last plan with probes, by id.
+    std::optional<std::vector<lodestar::plugin::SeenBox>> seen;
     double hour = 15.0;
     lodestar::plugin::PlannedEnvironment planned;
     lodestar::plugin::PlanRing plans;
@@ -234,5 +241,7 @@ void standOver(const document::Material& from, LodestarMaterial& material, core:
 void addEnvironmentApi(LodestarApi& api);
 void addLookupApi(LodestarApi& api);
 void addPlanApi(LodestarApi& api);
+/// LodestarProbesApi.
+[[nodiscard]] const void* probesApi();
 
 } // namespace lodestar::plugin

@@ -146,15 +146,28 @@ core::Result<PlacedEnvironment> PlacedEnvironment::make(const LodestarEnvironmen
 void PlacedEnvironment::show(lighting::Cubemap base) {
     maps_ = {};
     maps_.base = std::move(base);
+    mean_.reset();
     texels_[0].reset();
     texels_[1].reset();
     ++version_;
 }
 
-const lighting::PreparedEnvironment& PlacedEnvironment::prepared() {
+const lighting::Cubemap& PlacedEnvironment::tentMips() {
     if (maps_.tentMips.empty()) {
         maps_.tentMips = lighting::tentMips(maps_.base);
     }
+    return maps_.tentMips;
+}
+
+const glm::dvec3& PlacedEnvironment::mean() {
+    if (!mean_) {
+        mean_ = glm::dvec3(lighting::sphereMean(maps_.base, 0));
+    }
+    return *mean_;
+}
+
+const lighting::PreparedEnvironment& PlacedEnvironment::prepared() {
+    (void)tentMips();
     if (maps_.irradiance.empty()) {
         maps_.irradiance = lighting::irradianceCube(maps_.base);
     }
@@ -179,20 +192,27 @@ plan::CaptureView PlacedEnvironment::view() const {
     return {name_, capture_->missing, version_ != 0};
 }
 
-LodestarFaceJob PlacedEnvironment::job(int face) const {
+FaceCamera faceCamera(int face, const glm::dvec3& position, double near, double far) {
     const glm::dvec3 forward(shader::lodestar_cubeDirection(face, 0.0f, 0.0f));
     const glm::dvec3 right = glm::dvec3(shader::lodestar_cubeDirection(face, 1.0f, 0.0f)) - forward;
     const glm::dvec3 up = glm::dvec3(shader::lodestar_cubeDirection(face, 0.0f, 1.0f)) - forward;
     const glm::dmat3 cameraFromWorld = glm::transpose(glm::dmat3(right, up, -forward));
     glm::dmat4 view(cameraFromWorld);
-    view[3] = glm::dvec4(-(cameraFromWorld * capture_->position), 1.0);
-    const glm::dmat4 projection =
-        glm::perspectiveRH_NO(std::acos(0.0), 1.0, capture_->near, capture_->far);
+    view[3] = glm::dvec4(-(cameraFromWorld * position), 1.0);
+    const glm::dmat4 projection = glm::perspectiveRH_NO(std::acos(0.0), 1.0, near, far);
+    FaceCamera camera{};
+    std::copy_n(glm::value_ptr(view), 16, camera.view);
+    std::copy_n(glm::value_ptr(projection), 16, camera.projection);
+    return camera;
+}
+
+LodestarFaceJob PlacedEnvironment::job(int face) const {
+    const FaceCamera camera = faceCamera(face, capture_->position, capture_->near, capture_->far);
     LodestarFaceJob job{};
     job.struct_size = sizeof job;
     job.face = face;
-    std::copy_n(glm::value_ptr(view), 16, job.view);
-    std::copy_n(glm::value_ptr(projection), 16, job.projection);
+    std::copy_n(camera.view, 16, job.view);
+    std::copy_n(camera.projection, 16, job.projection);
     job.width = static_cast<std::uint32_t>(capture_->pending.width());
     return job;
 }

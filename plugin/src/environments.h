@@ -18,6 +18,14 @@
 
 namespace lodestar::plugin {
 
+/// Of a face of a cube that a host draws, column after column.
+struct FaceCamera {
+    double view[16];       ///< camera from world
+    double projection[16]; ///< OpenGL clip space from camera: row 0 of the face is at y = -1
+};
+/// @param near, far metres, 0 < near < far
+[[nodiscard]] FaceCamera faceCamera(int face, const glm::dvec3& position, double near, double far);
+
 class PlacedEnvironment {
 public:
     /// @errors InputRefused with a JSON pointer of the member
@@ -36,6 +44,12 @@ public:
     [[nodiscard]] std::shared_ptr<const lighting::CubeTexels> texels(int which);
     /// Its maps for the CPU's lookups, tent mips and irradiance made. @pre it shows something
     [[nodiscard]] const lighting::PreparedEnvironment& prepared();
+
+    /// Level 0, and the tent mips, made when they are first asked for. @pre it shows something
+    [[nodiscard]] const lighting::Cubemap& base() const { return maps_.base; }
+    [[nodiscard]] const lighting::Cubemap& tentMips();
+    /// Mean radiance over the sphere. @pre it shows something
+    [[nodiscard]] const glm::dvec3& mean();
 
     /// What the planner is told. @pre captured
     [[nodiscard]] plan::CaptureView view() const;
@@ -59,6 +73,7 @@ private:
     std::string name_;
     std::uint64_t version_ = 0;
     lighting::PreparedEnvironment maps_;
+    std::optional<glm::dvec3> mean_;
     std::shared_ptr<const lighting::CubeTexels> texels_[2]; ///< environment, irradiance
     std::optional<Capture> capture_;
 };

@@ -25,7 +25,34 @@ bool setTerms(const LodestarMaterial& material, plan::DrawView& draw) {
     draw.glossy = material.given == 0 || !isBlack(packed + 4) || exponent > 0.0f;
     draw.diffuse = !isBlack(packed) || (draw.glossy && exponent < 1.0f);
     draw.sharpest = static_cast<double>(shader::lodestar_lookupExponent(exponent, 0.0f));
+    draw.bluntest = static_cast<double>(shader::lodestar_lookupExponent(exponent, 1.0f));
     return true;
+}
+
+/// Draws of which the host says no more than where they are.
+std::vector<plan::DrawView> drawsOf(const BoxedFrame& boxes) {
+    std::vector<plan::DrawView> draws(boxes.draws.size());
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+        draws[i].subject = "draw " + std::to_string(i);
+        draws[i].casts = false;
+        draws[i].geometry = i;
+        draws[i].material = static_cast<std::uint32_t>(i);
+    }
+    return draws;
+}
+
+/// Tells the planner where the draws are.
+core::Result<void> place(const BoxedFrame& boxes, std::vector<plan::DrawView>& draws) {
+    if (boxes.draws.size() != draws.size()) {
+        return core::refused("there are as many boxes as draws", "/draws");
+    }
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+        draws[i].low = boxes.draws[i].low;
+        draws[i].high = boxes.draws[i].high;
+        draws[i].layers = boxes.draws[i].layers;
+        draws[i].screenShare = boxes.draws[i].share;
+    }
+    return {};
 }
 
 core::Result<std::vector<plan::DrawView>> drawsOf(const LodestarFrame& frame) {
@@ -122,6 +149,7 @@ void keepLights(LodestarContext& context, const std::vector<lighting::DayMoment>
         PlacedLight& light = *context.lights.find(context.order[lit.light]);
         Packet::Light kept;
         kept.blend = texelsOf(light);
+        kept.sky = light.map.day().kind == lighting::LightKind::Sky;
         kept.shown.struct_size = sizeof kept.shown;
         kept.shown.layer = static_cast<std::uint32_t>(lit.light);
         kept.shown.light = context.order[lit.light];
@@ -168,16 +196,18 @@ void keepEnvironment(LodestarContext& context, bool present, Packet& packet) {
 std::vector<std::uint32_t> featuresOf(const plan::EffectPlan& plan, std::size_t draws) {
     std::vector<std::uint32_t> features(draws, 0);
     for (std::size_t i = 0; i < plan.drawOrder.size(); ++i) {
-        const plan::Features set = plan.drawFeatures[i];
-        const auto flag = [&](plan::Feature feature, std::uint32_t bit) {
-            return plan::has(set, feature) ? bit : 0u;
-        };
-        features[plan.drawOrder[i]] =
-            flag(plan::Feature::Environment, LODESTAR_FEATURE_ENVIRONMENT) |
-            flag(plan::Feature::RsrmLights, LODESTAR_FEATURE_LIGHTS) |
-            flag(plan::Feature::RsrmMirror, LODESTAR_FEATURE_MIRROR);
+        features[plan.drawOrder[i]] = featureBits(plan.drawFeatures[i]);
     }
     return features;
+}
+
+/// Which of the lights shown are skies, as two numbers of 16 bits each.
+glm::vec2 skiesOf(const std::vector<bool>& skies) {
+    glm::vec2 bits(0.0f);
+    for (std::size_t i = 0; i < skies.size(); ++i) {
+        bits[static_cast<int>(i / 16)] += skies[i] ? static_cast<float>(1u << (i % 16)) : 0.0f;
+    }
+    return bits;
 }
 
 blocks::LodestarLighting uniformsOf(const Packet& packet) {
@@ -189,7 +219,12 @@ blocks::LodestarLighting uniformsOf(const Packet& packet) {
     };
     const lighting::RsrmLayout& map = lighting::kRsrm;
     const bool environment = packet.environment.texels || packet.irradiance.texels;
-    uniforms.lodestar_counts = {packet.lights.size(), environment ? 1.0f : 0.0f, 0.0f, 0.0f};
+    std::vector<bool> skies;
+    for (const Packet::Light& light : packet.lights) {
+        skies.push_back(light.sky);
+    }
+    uniforms.lodestar_counts =
+        glm::vec4(packet.lights.size(), environment ? 1.0f : 0.0f, skiesOf(skies));
     uniforms.lodestar_environmentCube = cube(packet.environment);
     uniforms.lodestar_irradianceCube = cube(packet.irradiance);
     uniforms.lodestar_mapSize = {map.columns, map.rows, map.leastExponent, map.greatestExponent};
@@ -204,19 +239,42 @@ blocks::LodestarLighting uniformsOf(const Packet& packet) {
 
 } // namespace
 
-core::Result<Packet> makePacket(LodestarContext& context, const LodestarFrame& frame) {
-    auto draws = drawsOf(frame);
-    if (!draws) {
-        return draws.error();
-    }
+std::uint32_t featureBits(plan::Features features) {
+    const auto flag = [&](plan::Feature feature, std::uint32_t bit) {
+        return plan::has(features, feature) ? bit : 0u;
+    };
+    return flag(plan::Feature::Environment, LODESTAR_FEATURE_ENVIRONMENT) |
+           flag(plan::Feature::RsrmLights, LODESTAR_FEATURE_LIGHTS) |
+           flag(plan::Feature::RsrmMirror, LODESTAR_FEATURE_MIRROR) |
+           flag(plan::Feature::Probe, LODESTAR_FEATURE_PROBE) |
+           flag(plan::Feature::SecondProbe, LODESTAR_FEATURE_SECOND_PROBE);
+}
+
+core::Result<std::shared_ptr<const Packet>> makePacket(LodestarContext& context,
+                                                       const LodestarFrame& frame) {
     plan::PlanInput input;
-    input.draws = std::move(*draws);
+    if (frame.draws == nullptr && context.boxes) {
+        input.draws = drawsOf(*context.boxes);
+    } else {
+        auto draws = drawsOf(frame);
+        if (!draws) {
+            return draws.error();
+        }
+        input.draws = std::move(*draws);
+    }
+    if (context.boxes) {
+        if (auto placed = place(*context.boxes, input.draws); !placed) {
+            return placed.error();
+        }
+    }
     input.backdrop = frame.backdrop != 0;
     input.faceBudget = static_cast<int>(std::min<std::uint32_t>(frame.max_faces, 1u << 20));
     const std::vector<lighting::DayMoment> moments = describeLights(context, input);
     describeEnvironment(context, input);
     const std::vector<LodestarEnvironment> captures = describeCaptures(context, input);
-    Packet packet;
+    ProbePlanning probes(context, moments, input);
+    auto made = std::make_shared<Packet>();
+    Packet& packet = *made;
     packet.plan = plan::plan(input);
     packet.work.struct_size = sizeof packet.work;
     keepLights(context, moments, packet);
@@ -226,7 +284,9 @@ core::Result<Packet> makePacket(LodestarContext& context, const LodestarFrame& f
         packet.jobs.push_back(context.environments.find(handle)->job(face.face));
         packet.jobs.back().environment = handle;
     }
-    packet.work.face_jobs = static_cast<std::uint32_t>(packet.jobs.size());
+    probes.execute(packet.plan, input, packet.probes);
+    packet.work.face_jobs =
+        static_cast<std::uint32_t>(packet.jobs.size() + packet.probes.jobs.size());
     if (frame.draws != nullptr) {
         packet.features = featuresOf(packet.plan, input.draws.size());
     }
@@ -235,7 +295,8 @@ core::Result<Packet> makePacket(LodestarContext& context, const LodestarFrame& f
     for (const Packet::Light& light : packet.lights) {
         context.lights.find(light.shown.light)->planned = light.shown.version;
     }
-    return packet;
+    probes.keep();
+    return std::shared_ptr<const Packet>(std::move(made));
 }
 
 } // namespace lodestar::plugin

@@ -17,6 +17,7 @@
 #include "lodestar/lodestar.h"
 #include "plan/effect_plan.h"
 #include "plugin/uniforms.glsl"
+#include "probe_plans.h"
 
 namespace lodestar::plugin {
 
@@ -25,6 +26,7 @@ struct Packet {
     struct Light {
         LodestarPlannedLight shown{};
         std::shared_ptr<const lighting::LightMap::Blend> blend;
+        bool sky = false;
     };
     struct Cube {
         LodestarEnvironment of = 0;
@@ -36,10 +38,14 @@ struct Packet {
     std::vector<Light> lights;         ///< those that the frame is lit by
     Cube environment, irradiance;
     std::vector<LodestarFaceJob> jobs;
+    ProbePacket probes;
     std::vector<std::uint32_t> features; ///< LODESTAR_FEATURE_*, of each draw of the host's
     blocks::LodestarLighting uniforms{};
     LodestarWork work{};
 };
+
+/// A plan's features as LODESTAR_FEATURE_*.
+[[nodiscard]] std::uint32_t featureBits(plan::Features features);
 
 /// The last plans of a context; found from any thread.
 class PlanRing {
@@ -49,6 +55,11 @@ public:
         ++last_;
         kept_[last_ % kept_.size()] = {last_, std::move(packet)};
         return last_;
+    }
+    /// The number of the plan that is added next.
+    [[nodiscard]] LodestarPlan next() const {
+        const std::scoped_lock lock(mutex_);
+        return last_ + 1;
     }
     /// Null: it is stale, or none.
     [[nodiscard]] std::shared_ptr<const Packet> find(LodestarPlan plan) const {
@@ -71,6 +82,7 @@ struct PlannedEnvironment {
 };
 
 /// Decides a frame at the context's hour. @errors InputRefused with a JSON pointer into the frame
-[[nodiscard]] core::Result<Packet> makePacket(LodestarContext& context, const LodestarFrame& frame);
+[[nodiscard]] core::Result<std::shared_ptr<const Packet>> makePacket(LodestarContext& context,
+                                                                     const LodestarFrame& frame);
 
 } // namespace lodestar::plugin

@@ -126,6 +126,8 @@ struct PlanInput {
     std::size_t instancesPerPage = std::numeric_limits<std::size_t>::max();
     std::vector<CaptureView> captures;
     int faceBudget = 0; ///< faces captured in a frame, at most
+    /// Faces are drawn after the plan is executed: what they complete, a later plan publishes.
+    bool facesComeLater = false;
     std::vector<ProbeView> probes;
     lighting::Estimator specular = lighting::kDefaultSpecular;
     lighting::Estimator diffuse = lighting::kDefaultDiffuse;

@@ -198,6 +198,9 @@ private:
 
     [[nodiscard]] bool publishes(std::size_t i) const {
         const ProbeView& probe = input_.probes[i];
+        if (input_.facesComeLater) {
+            return inProgress(i) && countOf(probe.stale) == 0 && countOf(probe.awaited) == 0;
+        }
         return static_cast<int>(drawnNow_[i].size()) == countOf(probe.stale) &&
                (inProgress(i) || !drawnNow_[i].empty());
     }
@@ -217,6 +220,8 @@ private:
             effect.reason = "nobody sees it";
         } else if (probe.fromFile) {
             effect.reason = "it holds a file's light";
+        } else if (countOf(probe.awaited) > 0) {
+            effect.reason = "waits for faces that were asked for: " + probe.because;
         } else if (stale > 0) {
             effect.reason = std::string("waits, the frame's faces are spent: ") +
                             std::to_string(stale) + (stale == 1 ? " face, " : " faces, ") +

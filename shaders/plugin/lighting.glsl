@@ -8,12 +8,17 @@
 //   LODESTAR_WITH_ENVIRONMENT      0: the draw takes no light of an environment
 //   LODESTAR_WITH_LIGHTS           0: nor of skies and suns
 //   LODESTAR_RSRM_MIRROR           0: no exponent exceeds the maps' last row
+//   LODESTAR_WITH_PROBES           1, 2: as many light probes hold it; the host calls
+//                                  lodestar_lightingAt
 //   LODESTAR_WITH_HOST_VISIBILITY  1: the host defines lodestar_host_visibility, its shadow term
 #ifndef LODESTAR_WITH_ENVIRONMENT
 #define LODESTAR_WITH_ENVIRONMENT 1
 #endif
 #ifndef LODESTAR_WITH_LIGHTS
 #define LODESTAR_WITH_LIGHTS 1
+#endif
+#ifndef LODESTAR_WITH_PROBES
+#define LODESTAR_WITH_PROBES 0
 #endif
 #ifndef LODESTAR_WITH_HOST_VISIBILITY
 #define LODESTAR_WITH_HOST_VISIBILITY 0
@@ -29,12 +34,36 @@ uniform sampler2DArray lodestar_maps;
 uniform sampler2DArray lodestar_lamberts;
 uniform sampler2DArray lodestar_gradients; // square roots
 
+#if LODESTAR_WITH_PROBES > 0
+#include "plugin/probes.glsl"
+#endif
+
 vec4 lodestar_host_cube(int slot, vec3 direction, float level) {
+#if LODESTAR_WITH_PROBES > 0
+    if (slot == 1) {
+        return vec4(textureLod(lodestar_probeTexels0, direction, level).rgb * lodestar_probeVector(0, 12).x, 1.0);
+    }
+#endif
+#if LODESTAR_WITH_PROBES > 1
+    if (slot == 2) {
+        return vec4(textureLod(lodestar_probeTexels1, direction, level).rgb * lodestar_probeVector(1, 12).x, 1.0);
+    }
+#endif
     vec4 texel = textureLod(lodestar_environmentTexels, direction, level);
     return vec4(texel.rgb * lodestar_environmentCube.w, texel.a);
 }
 
 vec3 lodestar_host_irradiance(int slot, vec3 normal) {
+#if LODESTAR_WITH_PROBES > 0
+    if (slot == 1) {
+        return textureLod(lodestar_probeIrradiance0, normal, 0.0).rgb * lodestar_probeVector(0, 12).y;
+    }
+#endif
+#if LODESTAR_WITH_PROBES > 1
+    if (slot == 2) {
+        return textureLod(lodestar_probeIrradiance1, normal, 0.0).rgb * lodestar_probeVector(1, 12).y;
+    }
+#endif
     return textureLod(lodestar_irradianceTexels, normal, 0.0).rgb * lodestar_irradianceCube.w;
 }
 
@@ -78,14 +107,20 @@ LodestarRsrm lodestar_lightMap(int light) {
     return map;
 }
 
+bool lodestar_isSky(int light) {
+    uint bits = uint(light < 16 ? lodestar_counts.z : lodestar_counts.w);
+    return ((bits >> uint(light & 15)) & 1u) != 0u;
+}
+
 /// Radiance of the skies and suns, reflected towards the viewer.
-vec3 lodestar_lightsReflected(LodestarSurface here) {
+/// @param open the share of the skies that no probe stands before, [0, 1]
+vec3 lodestar_lightsReflected(LodestarSurface here, float open) {
     LodestarLookup lookup = lodestar_lookup(here.normal, here.view, here.exponent);
     vec3 lambert = vec3(0.0);
     vec3 glossy = vec3(0.0);
     for (int i = 0; i < int(lodestar_counts.x); ++i) {
         LodestarRsrm map = lodestar_lightMap(i);
-        float visible = lodestar_host_visibility(i);
+        float visible = lodestar_host_visibility(i) * (lodestar_isSky(i) ? open : 1.0);
         lambert += visible * lodestar_rsrmLambert(map, here.normal);
         glossy += visible * lodestar_rsrm(map, lookup.direction, lodestar_rsrmRow(map, lookup.exponent));
     }
@@ -101,22 +136,40 @@ LodestarCube lodestar_distantCube() {
     return cube;
 }
 
-/// Radiance of all light, reflected towards the viewer.
-/// @param reflectionDx, reflectionDy screen derivatives of 2 (n.v) n - v; 0 where there are none, in
-/// a deferred pass say: then mirrors of fine environments may alias
-vec3 lodestar_lighting(LodestarSurface here, vec3 reflectionDx, vec3 reflectionDy) {
+/// Radiance of the environment, the skies and suns, reflected towards the viewer.
+/// @param open the share of the environment and the skies, [0, 1]
+vec3 lodestar_distantLighting(LodestarSurface here, float open, vec3 reflectionDx, vec3 reflectionDy) {
     vec3 radiance = vec3(0.0);
 #if LODESTAR_WITH_ENVIRONMENT
     if (lodestar_counts.y > 0.0) {
-        radiance += lodestar_environment(lodestar_distantCube(), here, reflectionDx, reflectionDy);
+        radiance += open * lodestar_environment(lodestar_distantCube(), here, reflectionDx, reflectionDy);
     }
 #endif
 #if LODESTAR_WITH_LIGHTS
     if (lodestar_counts.x > 0.0) {
-        radiance += lodestar_lightsReflected(here);
+        radiance += lodestar_lightsReflected(here, open);
     }
 #endif
     return radiance;
+}
+
+/// Radiance of all light but the probes', reflected towards the viewer.
+/// @param reflectionDx, reflectionDy screen derivatives of 2 (n.v) n - v; 0 where there are none, in
+/// a deferred pass say: then mirrors of fine environments may alias
+vec3 lodestar_lighting(LodestarSurface here, vec3 reflectionDx, vec3 reflectionDy) {
+    return lodestar_distantLighting(here, 1.0, reflectionDx, reflectionDy);
+}
+
+/// Radiance of all light, reflected towards the viewer. With probes it takes screen derivatives.
+/// @param world where the surface is  @param reflectionDx, reflectionDy as of lodestar_lighting
+vec3 lodestar_lightingAt(LodestarSurface here, vec3 world, vec3 reflectionDx, vec3 reflectionDy) {
+#if LODESTAR_WITH_PROBES > 0
+    LodestarShares shares = lodestar_sharesAt(world);
+    return lodestar_probesReflected(here, world, shares) +
+           lodestar_distantLighting(here, shares.environment, reflectionDx, reflectionDy);
+#else
+    return lodestar_lighting(here, reflectionDx, reflectionDy);
+#endif
 }
 
 /// Radiance from a direction beyond all surfaces.

@@ -21,7 +21,8 @@ layout(std140) uniform LodestarLighting {
 #define LODESTAR_UNIFORM uniform
 #endif
 
-LODESTAR_UNIFORM vec4 lodestar_counts;          ///< lights shown; 1 where there is an environment
+/// Lights shown; 1 where there is an environment; which lights are skies, the first 16 and the others, as bits.
+LODESTAR_UNIFORM vec4 lodestar_counts;
 LODESTAR_UNIFORM vec4 lodestar_environmentCube; ///< face width, last level, 0, radiance scale
 LODESTAR_UNIFORM vec4 lodestar_irradianceCube;  ///< the same of the irradiance cube
 LODESTAR_UNIFORM vec4 lodestar_mapSize; ///< columns, rows, exponents of the first and the last row

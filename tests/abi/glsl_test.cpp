@@ -92,6 +92,9 @@ void main() {
     here.occlusion = 1.0;
     vec3 r = 2.0 * dot(here.normal, here.view) * here.normal - here.view;
     oColor = vec4(lodestar_lighting(here, dFdx(r), dFdy(r)) + lodestar_backdrop(r), 1.0);
+#if LODESTAR_WITH_PROBES > 0
+    oColor.rgb += lodestar_lightingAt(here, gl_FragCoord.xyz, dFdx(r), dFdy(r));
+#endif
 })";
 }
 
@@ -113,7 +116,7 @@ TEST_F(AbiGlsl, AllLightingCompiles) {
     int variants = 0;
     for (const std::uint32_t version : {330u, 410u, 450u, 300u}) {
         for (const std::uint32_t block : {0u, 1u}) {
-            for (int set = 0; set < 16; ++set) {
+            for (int set = 0; set < 48; ++set) {
                 const LodestarDialect dialect{
                     sizeof dialect,
                     version,
@@ -128,7 +131,8 @@ TEST_F(AbiGlsl, AllLightingCompiles) {
                 };
                 const std::string features =
                     define("LODESTAR_WITH_ENVIRONMENT", 1) + define("LODESTAR_WITH_LIGHTS", 2) +
-                    define("LODESTAR_RSRM_MIRROR", 4) + define("LODESTAR_WITH_HOST_VISIBILITY", 8);
+                    define("LODESTAR_RSRM_MIRROR", 4) + define("LODESTAR_WITH_HOST_VISIBILITY", 8) +
+                    "#define LODESTAR_WITH_PROBES " + std::to_string(set / 16) + "\n";
                 SCOPED_TRACE(std::to_string(version) + " block " + std::to_string(block) +
                              " features " + std::to_string(set));
                 glDeleteShader(
@@ -137,7 +141,7 @@ TEST_F(AbiGlsl, AllLightingCompiles) {
             }
         }
     }
-    EXPECT_EQ(variants, 128);
+    EXPECT_EQ(variants, 384);
 }
 
 // What uniform_info says is what the driver says.

@@ -74,7 +74,7 @@ function target_of(include, from,    p, n) {
     n = split(include, p, "/")
     if (n == 1) return from
     if (p[1] == "..") return ".."
-    if (p[1] == "lodestar") return include == "lodestar/lodestar.h" ? "plugin" : "shaders/lodestar"
+    if (p[1] == "lodestar") return include ~ /^lodestar\/lodestar(_probes)?\.h$/ ? "plugin" : "shaders/lodestar"
     if (p[1] == "host") return "shaders/host"
     if (p[1] == "plugin" && include ~ /\.glsl$/) return "shaders/plugin"
     if (p[1] == "hosts") return "plugin/hosts"

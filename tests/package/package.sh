@@ -30,7 +30,7 @@ cat >"$work/consumer/main.cpp" <<TEXT
 #include <string>
 #include <vector>
 
-#include <lodestar/lodestar.h>
+#include <lodestar/lodestar_probes.h>
 
 static int blocks = 0; // a host's own operators: the library must not use them, nor the host the library's
 void* operator new(std::size_t size) {
