@@ -5,6 +5,8 @@
 #include <iterator>
 #include <vector>
 
+#include <lodestar/lodestar_probes.h>
+
 #include "io/document_file.h"
 #include "io/environment_file.h"
 #include "io/file.h"
@@ -46,6 +48,9 @@ core::Result<LitContext> LitContext::read(std::string_view text, const std::stri
     if (auto taken = result.takeEnvironment(beside); !taken) {
         return taken.error();
     }
+    if (auto taken = result.takeProbes(beside); !taken) {
+        return taken.error();
+    }
     std::size_t lights = 0;
     api.lights(context, nullptr, &lights);
     if (lights == 0 && result.environment_ == 0) {
@@ -54,19 +59,8 @@ core::Result<LitContext> LitContext::read(std::string_view text, const std::stri
     return result;
 }
 
-core::Result<void> LitContext::takeEnvironment(const std::string& beside) {
-    std::size_t size = 0;
-    LodestarEnvironmentDesc desc{};
-    if (api_.document_environment(get(), document_, nullptr, &size, nullptr, nullptr) !=
-        LODESTAR_MORE) {
-        return {};
-    }
-    std::string text(size, '\0');
-    if (api_.document_environment(get(), document_, text.data(), &size, &desc.rotation, &desc.ev) !=
-        LODESTAR_OK) {
-        return refusal();
-    }
-    text.resize(size - 1);
+core::Result<LodestarEnvironment>
+LitContext::loaded(const std::string& text, const std::string& beside, double rotation, double ev) {
     const auto source = io::environmentSource(text, beside);
     if (!source) {
         return source.error();
@@ -77,6 +71,7 @@ core::Result<void> LitContext::takeEnvironment(const std::string& beside) {
     }
     const std::vector<glm::vec4>& texels = loaded->base.level(0);
     const auto width = static_cast<std::uint32_t>(loaded->base.width());
+    LodestarEnvironmentDesc desc{};
     desc.struct_size = sizeof desc;
     desc.layout = LODESTAR_CUBE;
     desc.name = source->c_str();
@@ -84,9 +79,65 @@ core::Result<void> LitContext::takeEnvironment(const std::string& beside) {
     desc.width = desc.face_width = width;
     desc.height = 6 * width;
     desc.channels = 4;
-    if (api_.environment_create(get(), &desc, &environment_) != LODESTAR_OK ||
-        api_.set_environment(get(), environment_) != LODESTAR_OK) {
+    desc.rotation = rotation;
+    desc.ev = ev;
+    LodestarEnvironment made = 0;
+    if (api_.environment_create(get(), &desc, &made) != LODESTAR_OK) {
         return refusal();
+    }
+    return made;
+}
+
+core::Result<void> LitContext::takeEnvironment(const std::string& beside) {
+    std::size_t size = 0;
+    if (api_.document_environment(get(), document_, nullptr, &size, nullptr, nullptr) !=
+        LODESTAR_MORE) {
+        return {};
+    }
+    std::string text(size, '\0');
+    double rotation = 0.0, ev = 0.0;
+    if (api_.document_environment(get(), document_, text.data(), &size, &rotation, &ev) !=
+        LODESTAR_OK) {
+        return refusal();
+    }
+    text.resize(size - 1);
+    const auto made = loaded(text, beside, rotation, ev);
+    if (!made) {
+        return made.error();
+    }
+    environment_ = *made;
+    if (api_.set_environment(get(), environment_) != LODESTAR_OK) {
+        return refusal();
+    }
+    return {};
+}
+
+core::Result<void> LitContext::takeProbes(const std::string& beside) {
+    const auto& probes =
+        *static_cast<const LodestarProbesApi*>(api_.get_extension(LODESTAR_EXTENSION_PROBES));
+    std::size_t count = 0;
+    if (probes.document_probes(get(), document_) != LODESTAR_OK) {
+        return refusal();
+    }
+    probes.probes(get(), nullptr, &count);
+    std::vector<LodestarProbe> all(count);
+    probes.probes(get(), all.data(), &count);
+    for (const LodestarProbe probe : all) {
+        std::size_t size = 0;
+        if (probes.probe_source(get(), probe, nullptr, &size) != LODESTAR_MORE) {
+            continue;
+        }
+        std::string text(size, '\0');
+        probes.probe_source(get(), probe, text.data(), &size);
+        text.resize(size - 1);
+        const auto made = loaded(text, beside, 0.0, 0.0);
+        if (!made) {
+            return made.error();
+        }
+        if (probes.probe_hold(get(), probe, *made) != LODESTAR_OK ||
+            api_.environment_destroy(get(), *made) != LODESTAR_OK) {
+            return refusal();
+        }
     }
     return {};
 }

@@ -22,7 +22,8 @@ struct Frame {
 /// Move-only; used on the thread that opened it. Ends its context with itself.
 class LitContext {
 public:
-    /// Its environment's file is read from the document's folder or below.
+    /// With the document's light probes. Files of its environment and probes are read from the
+    /// document's folder or below.
     /// @errors InputRefused naming the file and the JSON pointer, also where it has no light;
     /// Internal if the library and its header do not fit
     [[nodiscard]] static core::Result<LitContext> open(const std::string& file,
@@ -42,6 +43,10 @@ private:
     using Owned = std::unique_ptr<LodestarContext, LodestarStatus (*)(LodestarContext*)>;
     LitContext(const LodestarApi& api, Owned context) : api_(api), context_(std::move(context)) {}
     [[nodiscard]] core::Result<void> takeEnvironment(const std::string& beside);
+    [[nodiscard]] core::Result<void> takeProbes(const std::string& beside);
+    /// An environment of level 0 of a file's, or of an analytic text's.
+    [[nodiscard]] core::Result<LodestarEnvironment>
+    loaded(const std::string& text, const std::string& beside, double rotation, double ev);
 
     LodestarApi api_;
     Owned context_;

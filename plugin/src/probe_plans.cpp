@@ -113,7 +113,7 @@ vectorsOf(const plan::ProbeView& view, const PlacedProbe& placed, const ProbeSta
     v[11] = glm::vec4(glm::vec3(placed.probe().tint * placed.probe().intensity), 0.0f);
     if (state.texels[0]) {
         v[10].w = static_cast<float>(state.texels[0]->width);
-        v[11].w = static_cast<float>(state.texels[0]->levels.size() - 1);
+        v[11].w = static_cast<float>(state.lastLevel);
         v[12] = {state.texels[0]->scale, state.texels[1]->scale, 0.0f, 0.0f};
     }
     return v;
@@ -229,7 +229,8 @@ void ProbePlanning::work(const plan::EffectPlan& plan) {
         if (work.compose && state.captured) {
             const int width = state.captured->width();
             compose(
-                state, [&](const glm::vec3& d) { return sky(d, width); }, work.fadeLeft);
+                state, [&](const glm::vec3& d) { return sky(d, width); }, work.fadeLeft,
+                work.lastLevel);
         }
     }
 }

@@ -285,7 +285,7 @@ void PlacedProbe::clearStaged() noexcept {
     }
 }
 
-void compose(ProbeState& state, const SkyRadiance& sky, int fadeLeft) {
+void compose(ProbeState& state, const SkyRadiance& sky, int fadeLeft, int lastLevel) {
     const lighting::Cubemap& captured = *state.captured;
     const int width = captured.width();
     lighting::Cubemap base(width);
@@ -312,6 +312,7 @@ void compose(ProbeState& state, const SkyRadiance& sky, int fadeLeft) {
     auto texels = std::make_shared<const lighting::CubeTexels>(lighting::cubeTexels(*chain));
     auto irradiance =
         std::make_shared<const lighting::CubeTexels>(lighting::cubeTexels(irradianceOf(*chain)));
+    state.lastLevel = std::min(lastLevel, chain->levelCount() - 1);
     state.lit = std::move(chain);
     state.texels[0] = std::move(texels);
     state.texels[1] = std::move(irradiance);

@@ -32,6 +32,7 @@ struct ProbeState {
     std::shared_ptr<const lighting::Cubemap> lit;          ///< the sky behind it, with tent mips
     std::shared_ptr<const lighting::CubeTexels> texels[2]; ///< of lit; of its irradiance
     std::uint64_t version = 0;                             ///< of lit
+    int lastLevel = 0;                                     ///< of lit, that lookups read
 };
 
 class PlacedProbe {
@@ -78,6 +79,7 @@ using SkyRadiance = std::function<glm::vec3(const glm::vec3&)>;
 
 /// Composes what a probe lights with into the state, a new version of it.
 /// @param fadeLeft frames, this one too, until it shows fully
-void compose(ProbeState& state, const SkyRadiance& sky, int fadeLeft);
+/// @param lastLevel that lookups read, at most the chain's
+void compose(ProbeState& state, const SkyRadiance& sky, int fadeLeft, int lastLevel);
 
 } // namespace lodestar::plugin

@@ -7,7 +7,8 @@
 #include "call.h"
 #include "hosts/material.h"
 #include "hosts/osg/headless.h"
-#include "hosts/osg/lights.h"
+#include "hosts/osg/lighting.h"
+#include "hosts/osg/probes.h"
 #include "hosts/osg/scene.h"
 
 namespace lodestar::samples {
@@ -31,14 +32,19 @@ core::Result<core::Image> draw(const HostCall& call, const HostScene& loaded) {
     if (!root) {
         return core::inFile(lit->refusal(), call.scene);
     }
-    root->getOrCreateStateSet()->setAttributeAndModes(osghost::programOf(lit->api()));
-    osghost::Lights lights(lit->api(), lit->get(), *root->getStateSet(), 0);
-    if (lights.update(call.hour) != LODESTAR_OK) {
-        return lit->refusal();
-    }
+    osg::ref_ptr<osghost::Lighting> lighting = new osghost::Lighting;
+    lighting->setFile(call.lighting);
+    lighting->setHour(call.hour);
+    lighting->addChild(root);
+    // Light probes are asked for, drawn and shown by three frames.
+    const int frames = osghost::Probes::wanted(lit->api(), lit->get()) ? 3 : 1;
     const osg::ref_ptr<osg::Image> image =
-        osghost::drawOnce(*root, matrixOf(loaded.view.cameraFromWorld),
-                          matrixOf(loaded.view.clipFromCamera), call.width, call.height);
+        osghost::drawOnce(*lighting, matrixOf(loaded.view.cameraFromWorld),
+                          matrixOf(loaded.view.clipFromCamera), call.width, call.height, frames);
+    if (lighting->getLightState() == nullptr) {
+        return core::Error{
+            core::ErrorCode::Internal, "the document cannot be shown", call.lighting, {}};
+    }
     return pictureOf(call, image->data());
 }
 

@@ -35,7 +35,8 @@ bool makeContextCurrent() {
 }
 
 osg::ref_ptr<osg::Image> drawOnce(osg::Group& root, const osg::Matrixd& view,
-                                  const osg::Matrixd& projection, int width, int height) {
+                                  const osg::Matrixd& projection, int width, int height,
+                                  int frames) {
     osg::ref_ptr<osg::Image> image = new osg::Image;
     image->allocateImage(width, height, 1, GL_RGBA, GL_UNSIGNED_BYTE);
     osgViewer::Viewer viewer;
@@ -64,7 +65,9 @@ osg::ref_ptr<osg::Image> drawOnce(osg::Group& root, const osg::Matrixd& view,
     viewer.setSceneData(top);
     viewer.getCamera()->setClearMask(0);
     viewer.realize();
-    viewer.frame();
+    for (int frame = 0; frame < frames; ++frame) {
+        viewer.frame();
+    }
     top->releaseGLObjects(window->getState()); // it may be drawn again, in another context
     return image;
 }

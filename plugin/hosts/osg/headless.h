@@ -16,9 +16,9 @@ namespace lodestar::osghost {
 [[nodiscard]] bool makeContextCurrent();
 
 /// Draws a scene once, by the first viewer of a context: RGBA of 8 bits, row 0 at the bottom; what
-/// nothing covers is 0.
+/// nothing covers is 0. @param frames that are drawn; the last is the picture
 [[nodiscard]] osg::ref_ptr<osg::Image> drawOnce(osg::Group& root, const osg::Matrixd& view,
                                                 const osg::Matrixd& projection, int width,
-                                                int height);
+                                                int height, int frames = 1);
 
 } // namespace lodestar::osghost

@@ -13,11 +13,15 @@
 
 #include "hosts/osg/lights.h"
 #include "hosts/osg/material.h"
+#include "hosts/osg/probes.h"
 #include "hosts/osg/scene.h"
 #include "hosts/osg/thread_contexts.h"
 
 namespace lodestar::osghost {
 namespace {
+
+/// The first of four texture units behind those of Lights.
+constexpr int kProbeUnit = 5;
 
 double wrapped(double hour) {
     const double rest = std::fmod(hour, 24.0);
@@ -99,17 +103,31 @@ void Lighting::setHoursPerSecond(double rate) {
 }
 
 void Lighting::traverse(osg::NodeVisitor& visitor) {
-    if (visitor.getVisitorType() == osg::NodeVisitor::UPDATE_VISITOR) {
+    const bool updates = visitor.getVisitorType() == osg::NodeVisitor::UPDATE_VISITOR;
+    if (updates) {
         update(visitor.getFrameStamp());
     }
-    osgUtil::CullVisitor* const cull = state_.valid() ? visitor.asCullVisitor() : nullptr;
-    if (cull != nullptr) {
-        cull->pushStateSet(state_.get());
+    if (osgUtil::CullVisitor* const culls = state_.valid() ? visitor.asCullVisitor() : nullptr) {
+        cull(*culls);
+    } else {
+        osg::Group::traverse(visitor);
     }
+    if (updates) {
+        show(visitor.getNodePath()); // where things are now
+    }
+}
+
+void Lighting::cull(osgUtil::CullVisitor& visitor) {
+    if (probes_) {
+        probes_->cullFaces(visitor);
+    }
+    visitor.pushStateSet(state_.get());
+    osgUtil::StateGraph* const top = visitor.getCurrentStateGraph();
     osg::Group::traverse(visitor);
-    if (cull != nullptr) {
-        cull->popStateSet();
+    if (probes_) {
+        probes_->dress(visitor, top);
     }
+    visitor.popStateSet();
 }
 
 void Lighting::update(const osg::FrameStamp* stamp) {
@@ -129,7 +147,18 @@ void Lighting::update(const osg::FrameStamp* stamp) {
     if (lit_ == nullptr && !refused_ && !(document_.empty() && file_.empty())) {
         open();
     }
-    if (lit_ != nullptr && lights_->update(hour_) != LODESTAR_OK) {
+}
+
+void Lighting::show(const osg::NodePath& path) {
+    if (lit_ == nullptr) {
+        return;
+    }
+    LodestarStatus status = probes_ ? probes_->prepare(path) : LODESTAR_OK;
+    if (status == LODESTAR_OK) {
+        status = probes_ ? lights_->update(probes_->frame(hour_)) : lights_->update(hour_);
+    }
+    status = status == LODESTAR_OK && probes_ ? probes_->show(lights_->plan()) : status;
+    if (status != LODESTAR_OK) {
         refuse(lit_->refusal());
     }
 }
@@ -148,12 +177,17 @@ void Lighting::open() {
     lit_ = contexts_->keep(std::move(*opened));
     // A new one each time: the draw thread may still be leaving the last.
     state_ = new osg::StateSet;
-    state_->setAttributeAndModes(programOf(lit_->api()));
+    const bool probes = Probes::wanted(lit_->api(), lit_->get());
+    state_->setAttributeAndModes(probes ? probeProgramOf(lit_->api()) : programOf(lit_->api()));
     setMaterial(*state_, Material{});
     lights_ = std::make_unique<Lights>(lit_->api(), lit_->get(), *state_, 0);
+    if (probes) {
+        probes_ = std::make_unique<Probes>(lit_->api(), lit_->get(), *state_, kProbeUnit, *this);
+    }
 }
 
 void Lighting::close() {
+    probes_.reset();
     lights_.reset();
     state_ = nullptr;
     if (lit_ != nullptr) {
@@ -181,6 +215,9 @@ void Lighting::releaseGLObjects(osg::State* state) const {
     osg::Group::releaseGLObjects(state);
     if (state_.valid()) {
         state_->releaseGLObjects(state);
+    }
+    if (probes_) {
+        probes_->releaseGLObjects(state);
     }
 }
 

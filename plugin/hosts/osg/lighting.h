@@ -12,9 +12,14 @@
 
 #include "hosts/lit_context.h"
 
+namespace osgUtil {
+class CullVisitor;
+}
+
 namespace lodestar::osghost {
 
 class Lights;
+class Probes;
 class ThreadContexts;
 
 /// A group whose children are drawn by `programOf` under a document's lights at an hour; each says
@@ -28,6 +33,11 @@ class ThreadContexts;
 /// anew where a later one comes on another thread. The node may be deleted on any thread. The first
 /// of a program takes about a second to open: one that is to appear at once is updated before it is
 /// shown.
+///
+/// A document's light probes are captured by cameras that draw the children before the picture, six
+/// faces a frame at most, and light them from the frame after; those at a node follow the first
+/// node of that name below. Of what stands below, the world boxes are compared from update to
+/// update.
 ///
 /// A document that is refused is said once, as osg::WARN, and children are drawn as below a Group.
 class Lighting : public osg::Group {
@@ -61,8 +71,8 @@ public:
     void setHoursPerSecond(double rate);
     [[nodiscard]] double getHoursPerSecond() const { return hoursPerSecond_; }
 
-    /// What children are drawn with: texture units 0 to 4, uniforms, the program. Null before the
-    /// first update traversal and where the document is refused.
+    /// What children are drawn with: texture units 0 to 4, to 8 with light probes, uniforms, the
+    /// program. Null before the first update traversal and where the document is refused.
     [[nodiscard]] osg::StateSet* getLightState() const { return state_.get(); }
 
     void traverse(osg::NodeVisitor& visitor) override;
@@ -75,6 +85,8 @@ protected:
 
 private:
     void update(const osg::FrameStamp* stamp);
+    void show(const osg::NodePath& path);
+    void cull(osgUtil::CullVisitor& visitor);
     void open();
     void close();
     void refuse(const core::Error& why);
@@ -89,6 +101,7 @@ private:
     std::shared_ptr<ThreadContexts> contexts_; ///< of the thread that updates
     hosts::LitContext* lit_ = nullptr;         ///< one of theirs
     std::unique_ptr<Lights> lights_;
+    std::unique_ptr<Probes> probes_; ///< null: the document has none
     osg::ref_ptr<osg::StateSet> state_;
 };
 

@@ -8,6 +8,7 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "hosts/osg/cubes.h"
 #include "hosts/shading.h"
 
 #ifndef GL_RGBA32F_ARB
@@ -61,58 +62,6 @@ std::vector<float> unpacked(const std::vector<unsigned char>& bytes) {
         texels.insert(texels.end(), {root.r, root.g, root.b, 1.0f});
     }
     return texels;
-}
-
-std::vector<float> floatsOf(const std::vector<unsigned char>& bytes) {
-    std::vector<float> texels(bytes.size() / sizeof(float));
-    std::memcpy(texels.data(), bytes.data(), texels.size() * sizeof(float));
-    return texels;
-}
-
-std::vector<float> floatsOfHalves(const std::vector<unsigned char>& bytes) {
-    std::vector<float> texels(bytes.size() / sizeof(std::uint16_t));
-    for (std::size_t i = 0; i < texels.size(); ++i) {
-        std::uint16_t half = 0;
-        std::memcpy(&half, bytes.data() + i * sizeof half, sizeof half);
-        texels[i] = glm::unpackHalf1x16(half);
-    }
-    return texels;
-}
-
-void setCubeParameters(osg::TextureCubeMap& texture) {
-    texture.setInternalFormat(GL_RGBA32F_ARB);
-    texture.setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR_MIPMAP_LINEAR);
-    texture.setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
-    for (const auto wrap : {osg::Texture::WRAP_S, osg::Texture::WRAP_T, osg::Texture::WRAP_R}) {
-        texture.setWrap(wrap, osg::Texture::CLAMP_TO_EDGE);
-    }
-    texture.setResizeNonPowerOfTwoHint(false);
-    texture.setUseHardwareMipMapGeneration(false);
-}
-
-/// A face with its levels, one behind the other.
-osg::ref_ptr<osg::Image> faceImage(const std::vector<std::vector<float>>& levels, std::size_t face,
-                                   int width) {
-    std::size_t count = 0;
-    osg::Image::MipmapDataType offsets; // of the levels behind the first
-    for (const std::vector<float>& level : levels) {
-        if (count > 0) {
-            offsets.push_back(static_cast<unsigned>(count * sizeof(float)));
-        }
-        count += level.size() / 6;
-    }
-    auto* data = new unsigned char[count * sizeof(float)];
-    std::size_t at = 0;
-    for (const std::vector<float>& level : levels) {
-        const std::size_t bytes = level.size() / 6 * sizeof(float);
-        std::memcpy(data + at, level.data() + face * (level.size() / 6), bytes);
-        at += bytes;
-    }
-    osg::ref_ptr<osg::Image> image = new osg::Image;
-    image->setImage(width, width, 1, GL_RGBA32F_ARB, GL_RGBA, GL_FLOAT, data,
-                    osg::Image::USE_NEW_DELETE);
-    image->setMipmapLevels(offsets);
-    return image;
 }
 
 } // namespace
@@ -219,27 +168,6 @@ LodestarStatus Lights::showLights(LodestarPlan plan) {
     return status < 0 ? status : LODESTAR_OK;
 }
 
-osg::ref_ptr<osg::TextureCubeMap> Lights::cubeTexture(LodestarEnvironment of, const Cube& cube,
-                                                      const LodestarCube& described) {
-    std::vector<std::vector<float>> levels;
-    for (std::uint32_t level = 0; level < described.levels; ++level) {
-        std::size_t size = 0;
-        api_.environment_texels(context_, of, cube.texels, level, nullptr, &size);
-        std::vector<unsigned char> bytes(size);
-        if (api_.environment_texels(context_, of, cube.texels, level, bytes.data(), &size) !=
-            LODESTAR_OK) {
-            return nullptr;
-        }
-        levels.push_back(described.half_floats != 0 ? floatsOfHalves(bytes) : floatsOf(bytes));
-    }
-    osg::ref_ptr<osg::TextureCubeMap> texture = new osg::TextureCubeMap;
-    setCubeParameters(*texture);
-    for (unsigned face = 0; face < 6; ++face) {
-        texture->setImage(face, faceImage(levels, face, static_cast<int>(described.width)));
-    }
-    return texture;
-}
-
 LodestarStatus Lights::showCube(LodestarPlan plan, Cube& cube) {
     LodestarEnvironment of = 0;
     LodestarCube described{};
@@ -258,7 +186,10 @@ LodestarStatus Lights::showCube(LodestarPlan plan, Cube& cube) {
                                        osg::StateAttribute::TEXTURE);
         return LODESTAR_OK;
     }
-    const osg::ref_ptr<osg::TextureCubeMap> texture = cubeTexture(of, cube, described);
+    const osg::ref_ptr<osg::TextureCubeMap> texture =
+        cubeTexture(described, [&](std::uint32_t level, void* bytes, std::size_t* size) {
+            return api_.environment_texels(context_, of, cube.texels, level, bytes, size);
+        });
     if (!texture) {
         return LODESTAR_E_ARG;
     }
@@ -270,6 +201,10 @@ LodestarStatus Lights::update(double hour) {
     LodestarFrame frame{};
     frame.struct_size = sizeof frame;
     frame.hour = hour;
+    return update(frame);
+}
+
+LodestarStatus Lights::update(const LodestarFrame& frame) {
     LodestarPlan plan = 0;
     LodestarStatus status = api_.plan_make(context_, &frame, &plan);
     status = status == LODESTAR_OK ? layOut() : status;
@@ -280,6 +215,7 @@ LodestarStatus Lights::update(double hour) {
     if (status != LODESTAR_OK) {
         return status;
     }
+    plan_ = plan;
     const std::vector<unsigned char> data = hosts::uniformData(api_, context_, plan);
     for (Value& value : values_) {
         for (std::uint32_t i = 0; i < value.info.count; ++i) {

@@ -4,6 +4,7 @@
 // touches GL. Everything here runs in the update traversal.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,10 @@ public:
     /// Plans an hour: uniforms always, texels where they have changed.
     /// @return the first status that is not LODESTAR_OK; last_error says it in words
     LodestarStatus update(double hour);
+    /// The same of a frame that says more.
+    LodestarStatus update(const LodestarFrame& frame);
+    /// The plan that was made last; 0: none.
+    [[nodiscard]] LodestarPlan plan() const { return plan_; }
 
 private:
     /// What a layer of the arrays holds.
@@ -45,13 +50,12 @@ private:
     LodestarStatus upload(std::size_t layer, LodestarLight light);
     LodestarStatus read(LodestarLight light, int which, std::vector<unsigned char>& bytes);
     LodestarStatus showCube(LodestarPlan plan, Cube& cube);
-    osg::ref_ptr<osg::TextureCubeMap> cubeTexture(LodestarEnvironment of, const Cube& cube,
-                                                  const LodestarCube& described);
 
     const LodestarApi& api_;
     LodestarContext* context_;
     osg::ref_ptr<osg::StateSet> state_;
     int firstUnit_;
+    LodestarPlan plan_ = 0;
     LodestarMapLayout layout_{};
     std::vector<Layer> layers_;
     osg::ref_ptr<osg::Texture2DArray> arrays_[3];

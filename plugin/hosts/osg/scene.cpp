@@ -90,6 +90,60 @@ osg::ref_ptr<osg::Node> nodeOf(const io::GltfFile& file, int index, const hosts:
     return transform;
 }
 
+constexpr const char* kVersion = "#version 330 compatibility\n";
+
+constexpr const char* kVertex = R"(
+uniform mat4 osg_ViewMatrixInverse;
+out vec3 vPosition;
+out vec3 vNormal;
+void main() {
+    vPosition = vec3(osg_ViewMatrixInverse * (gl_ModelViewMatrix * gl_Vertex));
+    vNormal = mat3(osg_ViewMatrixInverse) * (gl_NormalMatrix * gl_Normal);
+    gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
+})";
+
+constexpr const char* kSurface = R"(
+uniform mat4 osg_ViewMatrixInverse;
+uniform vec4 material_diffuse;
+uniform vec4 material_f0;
+in vec3 vPosition;
+in vec3 vNormal;
+vec3 radianceHere() {
+    LodestarSurface here;
+    here.view = normalize(osg_ViewMatrixInverse[3].xyz - vPosition);
+    here.normal = normalize(vNormal) * (gl_FrontFacing ? 1.0 : -1.0);
+    here.diffuse = material_diffuse.rgb;
+    here.f0 = material_f0.rgb;
+    here.exponent = material_diffuse.w;
+    here.occlusion = 1.0;
+    vec3 reflection = 2.0 * dot(here.normal, here.view) * here.normal - here.view;
+    return lodestar_lightingAt(here, vPosition, dFdx(reflection), dFdy(reflection));
+}
+)";
+
+constexpr const char* kShown = R"(
+void main() {
+    vec3 radiance = radianceHere();
+    gl_FragColor = vec4(lodestar_srgbFromLinear(lodestar_filmic(radiance.r)),
+                        lodestar_srgbFromLinear(lodestar_filmic(radiance.g)),
+                        lodestar_srgbFromLinear(lodestar_filmic(radiance.b)), 1.0);
+})";
+
+constexpr const char* kCaptured = R"(
+void main() {
+    gl_FragColor = vec4(radianceHere(), 1.0);
+})";
+
+osg::ref_ptr<osg::Program> program(const LodestarApi& api, int probes, const char* end) {
+    const std::string fragment =
+        std::string(kVersion) + "#define LODESTAR_WITH_PROBES " + std::to_string(probes) + "\n" +
+        hosts::shadingText(api, LODESTAR_PROFILE_COMPATIBILITY) + kSurface + end;
+    osg::ref_ptr<osg::Program> made = new osg::Program;
+    made->addShader(new osg::Shader(osg::Shader::VERTEX, std::string(kVersion) + kVertex));
+    made->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragment));
+    return made;
+}
+
 } // namespace
 
 osg::ref_ptr<osg::Group> sceneOf(const io::GltfFile& file, const hosts::LitContext& lit) {
@@ -107,41 +161,15 @@ osg::ref_ptr<osg::Group> sceneOf(const io::GltfFile& file, const hosts::LitConte
 }
 
 osg::ref_ptr<osg::Program> programOf(const LodestarApi& api) {
-    const std::string version = "#version 330 compatibility\n";
-    const std::string vertex = version + R"(
-uniform mat4 osg_ViewMatrixInverse;
-out vec3 vPosition;
-out vec3 vNormal;
-void main() {
-    vPosition = vec3(osg_ViewMatrixInverse * (gl_ModelViewMatrix * gl_Vertex));
-    vNormal = mat3(osg_ViewMatrixInverse) * (gl_NormalMatrix * gl_Normal);
-    gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
-})";
-    const std::string fragment =
-        version + hosts::shadingText(api, LODESTAR_PROFILE_COMPATIBILITY) + R"(
-uniform mat4 osg_ViewMatrixInverse;
-uniform vec4 material_diffuse;
-uniform vec4 material_f0;
-in vec3 vPosition;
-in vec3 vNormal;
-void main() {
-    LodestarSurface here;
-    here.view = normalize(osg_ViewMatrixInverse[3].xyz - vPosition);
-    here.normal = normalize(vNormal) * (gl_FrontFacing ? 1.0 : -1.0);
-    here.diffuse = material_diffuse.rgb;
-    here.f0 = material_f0.rgb;
-    here.exponent = material_diffuse.w;
-    here.occlusion = 1.0;
-    vec3 reflection = 2.0 * dot(here.normal, here.view) * here.normal - here.view;
-    vec3 radiance = lodestar_lighting(here, dFdx(reflection), dFdy(reflection));
-    gl_FragColor = vec4(lodestar_srgbFromLinear(lodestar_filmic(radiance.r)),
-                        lodestar_srgbFromLinear(lodestar_filmic(radiance.g)),
-                        lodestar_srgbFromLinear(lodestar_filmic(radiance.b)), 1.0);
-})";
-    osg::ref_ptr<osg::Program> program = new osg::Program;
-    program->addShader(new osg::Shader(osg::Shader::VERTEX, vertex));
-    program->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragment));
-    return program;
+    return program(api, 0, kShown);
+}
+
+osg::ref_ptr<osg::Program> probeProgramOf(const LodestarApi& api) {
+    return program(api, 2, kShown);
+}
+
+osg::ref_ptr<osg::Program> faceProgramOf(const LodestarApi& api) {
+    return program(api, 2, kCaptured);
 }
 
 } // namespace lodestar::osghost

@@ -22,4 +22,9 @@ namespace lodestar::osghost {
 /// `lodestar render` shows them.
 [[nodiscard]] osg::ref_ptr<osg::Program> programOf(const LodestarApi& api);
 
+/// The same with two light probes, as `Probes` sets them.
+[[nodiscard]] osg::ref_ptr<osg::Program> probeProgramOf(const LodestarApi& api);
+/// What a light probe captures: linear radiance, coverage 1.
+[[nodiscard]] osg::ref_ptr<osg::Program> faceProgramOf(const LodestarApi& api);
+
 } // namespace lodestar::osghost

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "hosts/osg/cubes.h"
+
+#include <cstring>
+
+#include <osg/Image>
+
+#include <glm/gtc/packing.hpp>
+
+#ifndef GL_RGBA32F_ARB
+#define GL_RGBA32F_ARB 0x8814
+#endif
+
+namespace lodestar::osghost {
+namespace {
+
+void setCubeParameters(osg::TextureCubeMap& texture) {
+    texture.setInternalFormat(GL_RGBA32F_ARB);
+    texture.setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR_MIPMAP_LINEAR);
+    texture.setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
+    for (const auto wrap : {osg::Texture::WRAP_S, osg::Texture::WRAP_T, osg::Texture::WRAP_R}) {
+        texture.setWrap(wrap, osg::Texture::CLAMP_TO_EDGE);
+    }
+    texture.setResizeNonPowerOfTwoHint(false);
+    texture.setUseHardwareMipMapGeneration(false);
+}
+
+/// A face with its levels, one behind the other.
+osg::ref_ptr<osg::Image> faceImage(const std::vector<std::vector<float>>& levels, std::size_t face,
+                                   int width) {
+    std::size_t count = 0;
+    osg::Image::MipmapDataType offsets; // of the levels behind the first
+    for (const std::vector<float>& level : levels) {
+        if (count > 0) {
+            offsets.push_back(static_cast<unsigned>(count * sizeof(float)));
+        }
+        count += level.size() / 6;
+    }
+    auto* data = new unsigned char[count * sizeof(float)];
+    std::size_t at = 0;
+    for (const std::vector<float>& level : levels) {
+        const std::size_t bytes = level.size() / 6 * sizeof(float);
+        std::memcpy(data + at, level.data() + face * (level.size() / 6), bytes);
+        at += bytes;
+    }
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->setImage(width, width, 1, GL_RGBA32F_ARB, GL_RGBA, GL_FLOAT, data,
+                    osg::Image::USE_NEW_DELETE);
+    image->setMipmapLevels(offsets);
+    return image;
+}
+
+} // namespace
+
+std::vector<float> floatsOf(const std::vector<unsigned char>& bytes) {
+    std::vector<float> texels(bytes.size() / sizeof(float));
+    std::memcpy(texels.data(), bytes.data(), texels.size() * sizeof(float));
+    return texels;
+}
+
+std::vector<float> floatsOfHalves(const std::vector<unsigned char>& bytes) {
+    std::vector<float> texels(bytes.size() / sizeof(std::uint16_t));
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        std::uint16_t half = 0;
+        std::memcpy(&half, bytes.data() + i * sizeof half, sizeof half);
+        texels[i] = glm::unpackHalf1x16(half);
+    }
+    return texels;
+}
+
+osg::ref_ptr<osg::TextureCubeMap> cubeTexture(const LodestarCube& described,
+                                              const ReadLevel& read) {
+    std::vector<std::vector<float>> levels;
+    for (std::uint32_t level = 0; level < described.levels; ++level) {
+        std::size_t size = 0;
+        read(level, nullptr, &size);
+        std::vector<unsigned char> bytes(size);
+        if (read(level, bytes.data(), &size) != LODESTAR_OK) {
+            return nullptr;
+        }
+        levels.push_back(described.half_floats != 0 ? floatsOfHalves(bytes) : floatsOf(bytes));
+    }
+    osg::ref_ptr<osg::TextureCubeMap> texture = new osg::TextureCubeMap;
+    setCubeParameters(*texture);
+    for (unsigned face = 0; face < 6; ++face) {
+        texture->setImage(face, faceImage(levels, face, static_cast<int>(described.width)));
+    }
+    return texture;
+}
+
+} // namespace lodestar::osghost
