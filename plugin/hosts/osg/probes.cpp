@@ -3,51 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
-#include <unordered_set>
 
-#include <osg/GLExtensions>
-#include <osg/Image>
 #include <osg/NodeVisitor>
-#include <osg/Texture2D>
-#include <osg/Transform>
 
 #include "hosts/osg/cubes.h"
 #include "hosts/osg/scene.h"
-
-#ifndef GL_RGBA32F_ARB
-#define GL_RGBA32F_ARB 0x8814
-#endif
 
 namespace lodestar::osghost {
 namespace {
 
 constexpr std::uint32_t kFacesAFrame = 6;
-/// Samples of a captured texel, as the built-in renderer takes them.
-constexpr unsigned kSamples = 4;
 constexpr std::size_t kUnknown = std::numeric_limits<std::size_t>::max();
 constexpr unsigned kForced =
     osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE | osg::StateAttribute::PROTECTED;
-
-osg::BoundingBoxd placed(const osg::BoundingBox& box, const osg::Matrixd& worldFromLocal) {
-    osg::BoundingBoxd result;
-    for (unsigned corner = 0; corner < 8; ++corner) {
-        result.expandBy(osg::Vec3d(box.corner(corner)) * worldFromLocal);
-    }
-    return result;
-}
-
-/// Folds a pointer into a number that tells paths apart.
-std::uint64_t folded(std::uint64_t path, const void* node) {
-    path = (path ^ reinterpret_cast<std::uintptr_t>(node)) * 1099511628211ull;
-    return path ^ (path >> 29);
-}
-
-/// Finite where a box of floats is.
-bool isFinite(const osg::BoundingBoxd& box) {
-    return box.valid() && std::isfinite(box._min.length2()) && std::isfinite(box._max.length2());
-}
 
 const LodestarProbesApi& extensionOf(const LodestarApi& api) {
     return *static_cast<const LodestarProbesApi*>(api.get_extension(LODESTAR_EXTENSION_PROBES));
@@ -69,161 +38,6 @@ void setVectors(osg::StateSet& state, const float* vectors) {
 }
 
 } // namespace
-
-/// All drawables below a group, and where the nodes are that have names.
-class Probes::Collector : public osg::NodeVisitor {
-public:
-    explicit Collector(const osg::Matrixd& world)
-        : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN), world_(world) {}
-
-    void apply(osg::Node& node) override { entered(node, world_); }
-    void apply(osg::Transform& transform) override {
-        osg::Matrixd world = world_;
-        transform.computeLocalToWorldMatrix(world, this);
-        entered(transform, world);
-    }
-    void apply(osg::Camera&) override {} // pictures of their own
-    void apply(osg::Drawable& drawable) override {
-        const osg::BoundingBox& box = drawable.getBoundingBox();
-        if (!box.valid()) {
-            return;
-        }
-        Draw draw{&drawable, world_, folded(path_, &drawable), placed(box, world_), material_};
-        if (const osg::StateSet* own = drawable.getStateSet()) {
-            draw.material = materialOf(*own).value_or(material_);
-        }
-        while (!ids_.insert(draw.id).second) {
-            ++draw.id;
-        }
-        if (isFinite(draw.box)) {
-            draws.push_back(std::move(draw));
-        }
-    }
-
-    std::vector<Draw> draws;
-    std::map<std::string, osg::Matrixd> nodes; ///< the first of each name
-
-private:
-    void entered(osg::Node& node, const osg::Matrixd& world) {
-        if (std::strcmp(node.libraryName(), "lodestar") == 0) {
-            return; // another light's
-        }
-        if (!node.getName().empty()) {
-            nodes.try_emplace(node.getName(), world);
-        }
-        const osg::Matrixd outer = world_;
-        const std::uint64_t path = path_;
-        const Material material = material_;
-        if (const osg::StateSet* own = node.getStateSet()) {
-            material_ = materialOf(*own).value_or(material_);
-        }
-        world_ = world;
-        path_ = folded(path, &node);
-        traverse(node);
-        world_ = outer;
-        path_ = path;
-        material_ = material;
-    }
-
-    osg::Matrixd world_;
-    Material material_; // white, as Lighting has it
-    std::uint64_t path_ = 14695981039346656037ull;
-    std::unordered_set<std::uint64_t> ids_;
-};
-
-/// A face that is drawn: a camera over the group's children.
-class Probes::Face : public osg::Camera {
-public:
-    enum Stage { Waits, Culled, Drawn };
-
-    Face(const Probes& owner, unsigned width)
-        : owner_(owner), texture_(new osg::Texture2D), image(new osg::Image) {
-        image->allocateImage(static_cast<int>(width), static_cast<int>(width), 1, GL_RGBA,
-                             GL_FLOAT);
-        image->setInternalTextureFormat(GL_RGBA32F_ARB);
-        setRenderOrder(PRE_RENDER);
-        setRenderTargetImplementation(FRAME_BUFFER_OBJECT);
-        setReferenceFrame(ABSOLUTE_RF);
-        setViewport(0, 0, static_cast<int>(width), static_cast<int>(width));
-        setClearColor(osg::Vec4(0, 0, 0, 0));
-        setClearMask(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        setComputeNearFarMode(DO_NOT_COMPUTE_NEAR_FAR);
-        setCullingActive(false);
-        setDataVariance(DYNAMIC);
-        texture_->setTextureSize(static_cast<int>(width), static_cast<int>(width));
-        texture_->setInternalFormat(GL_RGBA32F_ARB);
-        texture_->setSourceFormat(GL_RGBA);
-        texture_->setSourceType(GL_FLOAT);
-        texture_->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
-        texture_->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
-        attach(COLOR_BUFFER, texture_.get(), 0, 0, false, kSamples, kSamples);
-        setInitialDrawCallback(new Begun);
-        setFinalDrawCallback(new Done);
-    }
-    void take(LodestarPlan of, const LodestarProbeJob& asked, Pairs wanted) {
-        plan = of;
-        job = asked;
-        pairs = std::move(wanted);
-        const osg::Matrixd view(job.view); // both lie column after column for column vectors
-        setViewMatrix(view);
-        setProjectionMatrix(osg::Matrixd(job.projection));
-        getOrCreateStateSet()->addUniform(
-            new osg::Uniform("osg_ViewMatrixInverse", osg::Matrixf(osg::Matrixd::inverse(view))),
-            kForced);
-        stage = Waits;
-    }
-    /// In place of children: those of the group that is lit.
-    void traverse(osg::NodeVisitor& visitor) override {
-        osgUtil::CullVisitor* const cull = visitor.asCullVisitor();
-        if (cull == nullptr) {
-            return;
-        }
-        cull->pushStateSet(owner_.faceState_.get());
-        osgUtil::StateGraph* const top = cull->getCurrentStateGraph();
-        owner_.lit_.osg::Group::traverse(visitor);
-        owner_.dress(*cull, top, pairs, true);
-        cull->popStateSet();
-    }
-
-    LodestarPlan plan = 0;
-    LodestarProbeJob job{};
-    Pairs pairs;
-    std::atomic<int> stage{Waits};
-
-protected:
-    ~Face() override = default;
-
-private:
-    /// OpenSceneGraph asks the loader alone whether a driver has NVIDIA's samples of coverage;
-    /// GLVND's has a stub for any name.
-    struct Begun : osg::Camera::DrawCallback {
-        void operator()(osg::RenderInfo& info) const override {
-            const unsigned context = info.getContextID();
-            if (!osg::isGLExtensionSupported(context, "GL_NV_framebuffer_multisample_coverage")) {
-                osg::GLExtensions::Get(context, true)->glRenderbufferStorageMultisampleCoverageNV =
-                    nullptr;
-            }
-        }
-    };
-    struct Done : osg::Camera::DrawCallback {
-        void operator()(osg::RenderInfo& info) const override {
-            auto* face = dynamic_cast<Face*>(info.getCurrentCamera());
-            if (face == nullptr) {
-                return;
-            }
-            osg::State& state = *info.getState();
-            state.setActiveTextureUnit(0);
-            state.applyTextureAttribute(0, face->texture_.get());
-            face->image->readImageFromCurrentTexture(state.getContextID(), false, GL_FLOAT);
-            face->stage = Drawn;
-        }
-    };
-    const Probes& owner_;
-    osg::ref_ptr<osg::Texture2D> texture_;
-
-public:
-    osg::ref_ptr<osg::Image> image;
-};
 
 Probes::Probes(const LodestarApi& api, LodestarContext* context, osg::StateSet& state,
                int firstUnit, osg::Group& lit)
@@ -303,16 +117,16 @@ void Probes::describe() {
 }
 
 void Probes::takeFaces() {
-    std::vector<osg::ref_ptr<Face>> still;
-    for (osg::ref_ptr<Face>& face : waiting_) {
-        if (face->stage != Face::Drawn) {
+    std::vector<osg::ref_ptr<ProbeFace>> still;
+    for (osg::ref_ptr<ProbeFace>& face : waiting_) {
+        if (!face->isDrawn()) {
             still.push_back(face);
             continue;
         }
         // One that came too late is asked for again.
-        probes_.probe_face(context_, face->plan, face->job.probe, face->job.face,
-                           reinterpret_cast<const float*>(face->image->data()));
-        face->pairs.clear();
+        probes_.probe_face(context_, face->plan(), face->job().probe, face->job().face,
+                           face->pixels());
+        face->forgetStates();
         idle_.push_back(face);
     }
     waiting_ = std::move(still);
@@ -328,17 +142,14 @@ LodestarStatus Probes::follow(LodestarProbe probe,
 
 LodestarStatus Probes::prepare(const osg::NodePath& path) {
     takeFaces();
-    Collector collector(osg::computeLocalToWorld(path));
-    for (unsigned i = 0; i < lit_.getNumChildren(); ++i) {
-        lit_.getChild(i)->accept(collector);
-    }
-    draws_ = std::move(collector.draws);
+    SceneDraws found = collectDraws(lit_, osg::computeLocalToWorld(path));
+    draws_ = std::move(found.draws);
     drawsOf_.clear();
     for (std::size_t i = 0; i < draws_.size(); ++i) {
         drawsOf_[draws_[i].drawable.get()].push_back(i);
     }
     for (const auto& [probe, name] : nodes_) {
-        if (const LodestarStatus status = follow(probe, collector.nodes); status != LODESTAR_OK) {
+        if (const LodestarStatus status = follow(probe, found.nodes); status != LODESTAR_OK) {
             return status;
         }
     }
@@ -434,26 +245,38 @@ LodestarStatus Probes::showJob(LodestarPlan plan, std::uint32_t index,
             return status;
         }
     }
-    Pairs pairs(draws_.size());
+    DrawStates pairs(draws_.size());
     for (const LodestarDrawProbes& draw : seen) {
         pairs[draw.draw] = pairState(plan, draw);
         if (!pairs[draw.draw]) {
             return LODESTAR_E_ARG;
         }
     }
-    // An earlier job of the face was never drawn.
-    std::erase_if(waiting_, [&](const osg::ref_ptr<Face>& face) {
-        return face->job.probe == job.probe && face->job.face == job.face;
+    // An earlier job of the face was never drawn, or will be too late.
+    std::erase_if(waiting_, [&](const osg::ref_ptr<ProbeFace>& face) {
+        const bool same = face->job().probe == job.probe && face->job().face == job.face;
+        if (same && face->beginCull()) {
+            idle_.push_back(face);
+        }
+        return same;
     });
-    const auto fits = std::find_if(idle_.begin(), idle_.end(), [&](const osg::ref_ptr<Face>& face) {
-        return face->job.width == job.width;
-    });
-    osg::ref_ptr<Face> face;
+    const auto fits =
+        std::find_if(idle_.begin(), idle_.end(), [&](const osg::ref_ptr<ProbeFace>& face) {
+            return face->job().width == job.width;
+        });
+    osg::ref_ptr<ProbeFace> face;
     if (fits != idle_.end()) {
         face = *fits;
         idle_.erase(fits);
     } else {
-        face = new Face(*this, job.width);
+        face =
+            new ProbeFace(job.width, [this](osgUtil::CullVisitor& cull, const DrawStates& states) {
+                cull.pushStateSet(faceState_.get());
+                osgUtil::StateGraph* const top = cull.getCurrentStateGraph();
+                lit_.osg::Group::traverse(cull);
+                dress(cull, top, states, true);
+                cull.popStateSet();
+            });
     }
     face->take(plan, job, std::move(pairs));
     waiting_.push_back(std::move(face));
@@ -501,9 +324,8 @@ LodestarStatus Probes::show(LodestarPlan plan) {
 }
 
 void Probes::cullFaces(osgUtil::CullVisitor& cull) {
-    for (const osg::ref_ptr<Face>& face : waiting_) {
-        int expected = Face::Waits;
-        if (face->stage.compare_exchange_strong(expected, Face::Culled)) {
+    for (const osg::ref_ptr<ProbeFace>& face : waiting_) {
+        if (face->beginCull()) {
             face->accept(cull);
         }
     }
@@ -534,7 +356,7 @@ std::size_t Probes::drawOf(const osgUtil::RenderLeaf& leaf, const osg::Matrixd& 
 }
 
 void Probes::dressBin(osgUtil::RenderBin& bin, osgUtil::StateGraph* top, const osg::Matrixd& view,
-                      const Pairs& pairs, bool onlyKnown) const {
+                      const DrawStates& pairs, bool onlyKnown) const {
     for (const auto& [number, inner] : bin.getRenderBinList()) {
         dressBin(*inner, top, view, pairs, onlyKnown);
     }
@@ -571,7 +393,7 @@ void Probes::dressBin(osgUtil::RenderBin& bin, osgUtil::StateGraph* top, const o
                   [](const osgUtil::StateGraph* graph) { return graph->leaves_empty(); });
 }
 
-void Probes::dress(osgUtil::CullVisitor& cull, osgUtil::StateGraph* top, const Pairs& pairs,
+void Probes::dress(osgUtil::CullVisitor& cull, osgUtil::StateGraph* top, const DrawStates& pairs,
                    bool onlyKnown) const {
     osgUtil::RenderStage& stage = *cull.getCurrentRenderStage();
     dressBin(stage, top, stage.getCamera()->getViewMatrix(), pairs, onlyKnown);
@@ -583,7 +405,7 @@ void Probes::dress(osgUtil::CullVisitor& cull, osgUtil::StateGraph* top) const {
 
 void Probes::releaseGLObjects(osg::State* state) const {
     for (const auto* faces : {&waiting_, &idle_}) {
-        for (const osg::ref_ptr<Face>& face : *faces) {
+        for (const osg::ref_ptr<ProbeFace>& face : *faces) {
             face->releaseGLObjects(state);
         }
     }

@@ -4,14 +4,12 @@
 // of each drawable set where it is drawn. Nothing of the scene is changed.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <map>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
-#include <osg/Camera>
 #include <osg/Drawable>
 #include <osg/Group>
 #include <osg/Matrixd>
@@ -21,7 +19,8 @@
 
 #include <lodestar/lodestar_probes.h>
 
-#include "hosts/osg/material.h"
+#include "hosts/osg/probe_face.h"
+#include "hosts/osg/scene_draws.h"
 
 namespace lodestar::osghost {
 
@@ -56,17 +55,6 @@ public:
     void releaseGLObjects(osg::State* state) const;
 
 private:
-    class Face;
-
-    /// A drawable at a place.
-    struct Draw {
-        osg::ref_ptr<const osg::Drawable> drawable;
-        osg::Matrixd worldFromLocal;
-        std::uint64_t id = 0;
-        osg::BoundingBoxd box;
-        Material material;
-    };
-    using Pairs = std::vector<osg::ref_ptr<osg::StateSet>>; ///< by draw; null: it has none
     /// By what they hold. Draws that hold the same share one.
     using States = std::map<std::string, osg::ref_ptr<osg::StateSet>>;
     /// A probe's textures at a version of its light.
@@ -74,7 +62,6 @@ private:
         std::uint64_t version = 0;
         osg::ref_ptr<osg::TextureCubeMap> texels, irradiance;
     };
-    class Collector;
 
     void takeFaces();
     void describe();
@@ -84,10 +71,10 @@ private:
                                                         const LodestarDrawProbes& pair);
     LodestarStatus showJob(LodestarPlan plan, std::uint32_t index, const LodestarProbeJob& job);
     /// @param onlyKnown what has no pair is not drawn
-    void dress(osgUtil::CullVisitor& cull, osgUtil::StateGraph* top, const Pairs& pairs,
+    void dress(osgUtil::CullVisitor& cull, osgUtil::StateGraph* top, const DrawStates& pairs,
                bool onlyKnown) const;
     void dressBin(osgUtil::RenderBin& bin, osgUtil::StateGraph* top, const osg::Matrixd& view,
-                  const Pairs& pairs, bool onlyKnown) const;
+                  const DrawStates& pairs, bool onlyKnown) const;
     [[nodiscard]] std::size_t drawOf(const osgUtil::RenderLeaf& leaf,
                                      const osg::Matrixd& view) const;
 
@@ -98,15 +85,15 @@ private:
     osg::ref_ptr<osg::StateSet> faceState_;
     int firstUnit_;
     osg::Group& lit_;
-    std::vector<Draw> draws_;
+    std::vector<SceneDraw> draws_;
     std::vector<LodestarMaterial> materials_; ///< by draw
     std::vector<LodestarDraw> described_;     ///< the same, pointing to those
     std::unordered_map<const osg::Drawable*, std::vector<std::size_t>> drawsOf_;
-    Pairs pairs_;
+    DrawStates pairs_;
     std::map<LodestarProbe, std::string> nodes_; ///< that probes follow
     std::map<LodestarProbe, Light> lights_;
     States states_, before_; ///< of the last plan, of the one before
-    std::vector<osg::ref_ptr<Face>> waiting_, idle_;
+    std::vector<osg::ref_ptr<ProbeFace>> waiting_, idle_;
 };
 
 } // namespace lodestar::osghost
