@@ -2,7 +2,6 @@
 #include "probe_plans.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -10,22 +9,10 @@
 
 #include "context.h"
 #include "lighting/zonal.h"
+#include "plan/state_hash.h"
 
 namespace lodestar::plugin {
 namespace {
-
-/// Folds a value into a number that tells states apart.
-void fold(std::uint64_t& state, std::uint64_t value) {
-    state = (state ^ value) * 1099511628211ull;
-    state ^= state >> 29;
-}
-void fold(std::uint64_t& state, double value) {
-    fold(state, std::bit_cast<std::uint64_t>(value));
-}
-
-std::array<glm::dvec3, 3> along(const glm::dvec3& irradiance, const glm::dvec3& axis) {
-    return {irradiance.r * axis, irradiance.g * axis, irradiance.b * axis};
-}
 
 /// Irradiance over pi of a surface that faces the light at the hour last looked at.
 glm::dvec3 facingIrradiance(PlacedLight& light) {
@@ -56,25 +43,27 @@ PlacedEnvironment* seenEnvironment(LodestarContext& context) {
 plan::LightState lightState(LodestarContext& context,
                             const std::vector<lighting::DayMoment>& moments) {
     plan::LightState state;
-    state.sky = 14695981039346656037ull;
+    plan::StateHash sky;
     PlacedEnvironment* distant = seenEnvironment(context);
     const glm::dvec3 up = context.hostFromDocument * glm::dvec3(0.0, 1.0, 0.0);
-    state.sources.push_back(along(distant != nullptr ? distant->mean() : glm::dvec3(0.0), up));
-    fold(state.sky, distant != nullptr ? context.environment : 0);
-    fold(state.sky, distant != nullptr ? distant->version() : 0);
+    state.sources.push_back(
+        plan::along(distant != nullptr ? distant->mean() : glm::dvec3(0.0), up));
+    sky.fold(distant != nullptr ? context.environment : 0);
+    sky.fold(distant != nullptr ? distant->version() : 0);
     for (std::size_t i = 0; i < moments.size(); ++i) {
         PlacedLight& light = *context.lights.find(context.order[i]);
         const glm::dvec3 facing =
             moments[i].visibility > 0.0 ? facingIrradiance(light) : glm::dvec3(0.0);
-        state.sources.push_back(along(facing, moments[i].axis));
+        state.sources.push_back(plan::along(facing, moments[i].axis));
         if (isSky(light)) {
-            fold(state.sky, context.order[i]);
-            fold(state.sky, light.version);
+            sky.fold(context.order[i]);
+            sky.fold(light.version);
             for (int c = 0; c < 3; ++c) {
-                fold(state.sky, moments[i].axis[c]);
+                sky.fold(moments[i].axis[c]);
             }
         }
     }
+    state.sky = sky.value();
     return state;
 }
 
@@ -139,12 +128,13 @@ ProbePlanning::ProbePlanning(LodestarContext& context,
     markMoved(input);
     light_ = lightState(context, moments);
     input.facesComeLater = true;
+    const plan::MovedIndex moved(moved_);
     for (const LodestarProbe handle : context.probeOrder) {
         const PlacedProbe& placed = *context.probes.find(handle);
         ProbeState& state = states_.emplace_back(placed.state);
         PlacedProbe::giveUp(state, number_);
         plan::ProbeView view = placed.view();
-        plan::observe(state.history, view, moved_, light_, context.boxes->lightThreshold);
+        plan::observe(state.history, view, moved, light_, context.boxes->lightThreshold);
         for (std::size_t face = 0; face < 6; ++face) {
             view.awaited[face] = state.askedBy[face] != 0;
         }

@@ -52,6 +52,12 @@ struct LightState {
     bool operator==(const LightState&) const = default;
 };
 
+/// A source of LightState::sources.
+[[nodiscard]] inline std::array<glm::dvec3, 3> along(const glm::dvec3& irradiance,
+                                                     const glm::dvec3& axis) {
+    return {irradiance.r * axis, irradiance.g * axis, irradiance.b * axis};
+}
+
 /// By how much light bounced off a matt surface may differ between two states, relative to the
 /// earlier's sum: the sum over sources of the vectors' differences bounds it for any normal.
 [[nodiscard]] double lightChange(const LightState& then, const LightState& now);

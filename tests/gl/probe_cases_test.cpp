@@ -24,26 +24,12 @@ using testing::blinnPhong;
 using testing::glowing;
 using testing::ProbeWorld;
 
-class ProbeCases : public testing::GlTest {
+class ProbeCases : public testing::ProbeTest {
 protected:
     std::unique_ptr<scene::Renderer> rendererOf(const scene::Scene& scene, double sky = 0.4) {
-        auto made = scene::Renderer::make(device(), scene);
-        EXPECT_TRUE(made.ok()) << made.error().message();
-        (*made)->setEnvironment(
-            "sky", lighting::cubeFromAnalytic(lighting::ConstantEnvironment{glm::dvec3(sky)}, 16));
-        return std::move(*made);
-    }
-    static scene::Frame frameOf(scene::Renderer& renderer, const scene::View& view,
-                                const scene::RenderSettings& settings) {
-        auto frame = renderer.render(view, settings);
-        EXPECT_TRUE(frame.ok()) << frame.error().message();
-        return std::move(*frame);
-    }
-    static scene::RenderSettings small(int side = 32) {
-        scene::RenderSettings settings;
-        settings.width = settings.height = side;
-        settings.backdrop = false;
-        return settings;
+        auto made = ProbeTest::rendererOf(scene);
+        made->setEnvironment("sky", testing::constantSky(sky));
+        return made;
     }
 };
 
@@ -186,7 +172,7 @@ TEST_F(ProbeCases, BrokenVolumesAndFramesAreDefined) {
     scene::Scene scene = world.make();
     auto renderer = rendererOf(scene);
     const scene::View view = testing::lookAt(scene, {0, 0, 4}, {0, 0, 0});
-    EXPECT_EQ(frameOf(*renderer, view, small()).repairedPixels, 0u);
+    EXPECT_EQ(frameOf(*renderer, view, small(32)).repairedPixels, 0u);
     const std::size_t last = scene.nodes.size() - 1;
     const float nan = std::numeric_limits<float>::quiet_NaN();
     for (const glm::mat4& frame : {glm::mat4(nan), glm::mat4(0.0f), glm::mat4(-1.0f),
@@ -197,7 +183,7 @@ TEST_F(ProbeCases, BrokenVolumesAndFramesAreDefined) {
             scene.nodes[node].parentFromNode = frame;
         }
         scene::updateTransforms(scene);
-        const scene::Frame drawn = frameOf(*renderer, view, small());
+        const scene::Frame drawn = frameOf(*renderer, view, small(32));
         EXPECT_EQ(drawn.repairedPixels, 0u);
         EXPECT_GT(drawn.radiance.at(16, 16)[0], 0.01f);
     }
@@ -213,7 +199,7 @@ TEST_F(ProbeCases, ResolutionsOfOneAndOfSixteenThousand) {
         const scene::Scene scene = world.make();
         auto renderer = rendererOf(scene, 1.0);
         const scene::View view = testing::lookAt(scene, {0, 0, 4}, {0, 0, 0});
-        const scene::Frame frame = frameOf(*renderer, view, small());
+        const scene::Frame frame = frameOf(*renderer, view, small(32));
         EXPECT_EQ(frame.counters.probeFaces, 6u);
         // A white world: k_L (1 - F) + F, F 0.1 and more.
         EXPECT_NEAR(frame.radiance.at(16, 16)[1], 0.55f, 0.02f) << resolution;
@@ -228,7 +214,7 @@ TEST_F(ProbeCases, WithoutABudgetNothingIsDrawnAndNothingIsLost) {
     const scene::Scene scene = world.make();
     auto renderer = rendererOf(scene, 1.0);
     const scene::View view = testing::lookAt(scene, {0, 0, 4}, {0, 0, 0});
-    scene::RenderSettings settings = small();
+    scene::RenderSettings settings = small(32);
     settings.faceBudget = 0;
     for (int i = 0; i < 3; ++i) {
         const scene::Frame frame = frameOf(*renderer, view, settings);
@@ -270,7 +256,7 @@ TEST_F(ProbeCases, WhatIsNotCalledForCostsNothing) {
         const scene::Scene scene = world.make();
         auto renderer = rendererOf(scene);
         const scene::View view = testing::lookAt(scene, {0, 0, 4}, {0, 0, 0});
-        const scene::Frame first = frameOf(*renderer, view, small());
+        const scene::Frame first = frameOf(*renderer, view, small(32));
         const plan::EffectPlan& plan = *first.plan;
         const bool probes = std::string(step.name) == "a probe";
         EXPECT_EQ(first.counters.probeFaces, probes ? 6u : 0u) << step.name;
@@ -296,7 +282,7 @@ TEST_F(ProbeCases, WhatIsNotCalledForCostsNothing) {
         }
         EXPECT_EQ(first.counters.passes, passes) << step.name;
         EXPECT_EQ(first.counters.draws, calls) << step.name;
-        const gl::WorkCounters second = frameOf(*renderer, view, small()).counters;
+        const gl::WorkCounters second = frameOf(*renderer, view, small(32)).counters;
         EXPECT_EQ(second.passes, 1u) << step.name;
         EXPECT_EQ(second.draws, draws) << step.name;
         EXPECT_EQ(second.uploads, 0u) << step.name;

@@ -25,30 +25,7 @@ using testing::blinnPhong;
 using testing::glowing;
 using testing::ProbeWorld;
 
-lighting::Cubemap constant(double radiance) {
-    return lighting::cubeFromAnalytic(lighting::ConstantEnvironment{glm::dvec3(radiance)}, 16);
-}
-
-class ProbeMotion : public testing::GlTest {
-protected:
-    std::unique_ptr<scene::Renderer> rendererOf(const scene::Scene& scene) {
-        auto made = scene::Renderer::make(device(), scene);
-        EXPECT_TRUE(made.ok()) << made.error().message();
-        return std::move(*made);
-    }
-    static scene::Frame frameOf(scene::Renderer& renderer, const scene::View& view,
-                                const scene::RenderSettings& settings) {
-        auto frame = renderer.render(view, settings);
-        EXPECT_TRUE(frame.ok()) << frame.error().message();
-        return std::move(*frame);
-    }
-    static scene::RenderSettings small(int side = 32) {
-        scene::RenderSettings settings;
-        settings.width = settings.height = side;
-        settings.backdrop = false;
-        return settings;
-    }
-};
+class ProbeMotion : public testing::ProbeTest {};
 
 std::size_t nodeNamed(const scene::Scene& scene, const std::string& name) {
     const auto at = std::find_if(scene.nodes.begin(), scene.nodes.end(),
@@ -118,7 +95,7 @@ TEST_F(ProbeMotion, AComposedSkyIsWhatACameraSees) {
     auto renderer = rendererOf(scene);
     renderer->setLights({dusk()});
     const scene::View view = testing::lookAt(scene, {3, 3, 5}, {0, 1, 0});
-    scene::RenderSettings settings = small();
+    scene::RenderSettings settings = small(32);
     settings.hour = 16.0;
     EXPECT_EQ(frameOf(*renderer, view, settings).counters.probeFaces, 6u);
     plan::ProbeView place;
@@ -233,7 +210,7 @@ TEST_F(ProbeMotion, NothingIsLitByItself) {
     probe.update = lighting::ProbeUpdate::Always;
     const scene::Scene scene = world.make();
     auto renderer = rendererOf(scene);
-    renderer->setEnvironment("white", constant(1.0));
+    renderer->setEnvironment("white", testing::constantSky(1.0));
     const scene::View view = testing::lookAt(scene, {0, 1.5f, 1.5f}, {0, 1, -1});
     for (int i = 0; i < 20; ++i) {
         const scene::Frame frame = frameOf(*renderer, view, small(16));
@@ -256,7 +233,7 @@ TEST_F(ProbeMotion, BouncesConverge) {
     }
     const scene::Scene scene = world.make();
     auto renderer = rendererOf(scene);
-    renderer->setEnvironment("black", constant(0.0));
+    renderer->setEnvironment("black", testing::constantSky(0.0));
     const scene::View view = testing::lookAt(scene, {3, 1.5f, 1.5f}, {-3, 1, -1}, 1.2f);
     std::vector<double> brightness;
     for (int i = 0; i < 14; ++i) {
@@ -278,12 +255,12 @@ TEST_F(ProbeMotion, AMovingThingDirtiesOnlyTheFacesThatSeeIt) {
     world.probe("yard", {0, 2.2, 2.5}, {12, 8, 12}, 0.5);
     scene::Scene scene = world.make();
     auto renderer = rendererOf(scene);
-    renderer->setEnvironment("grey", constant(0.4));
+    renderer->setEnvironment("grey", testing::constantSky(0.4));
     const scene::View view = testing::lookAt(scene, {3, 3, 5}, {0, 1, 0});
-    frameOf(*renderer, view, small());
+    frameOf(*renderer, view, small(32));
     const std::size_t lift = nodeNamed(scene, "lift");
     moveTo(scene, lift, glm::vec3(0, 2.4f, -3.8f));
-    const scene::Frame frame = frameOf(*renderer, view, small());
+    const scene::Frame frame = frameOf(*renderer, view, small(32));
     EXPECT_EQ(frame.counters.probeFaces, 1u); // -Z alone
     ASSERT_EQ(frame.plan->probeFaces.size(), 1u);
     EXPECT_EQ(frame.plan->probeFaces[0].face, 5);
@@ -303,7 +280,7 @@ TEST_F(ProbeMotion, TheBudgetHoldsForTwoThousandFrames) {
     }
     scene::Scene scene = world.make();
     auto renderer = rendererOf(scene);
-    renderer->setEnvironment("grey", constant(0.4));
+    renderer->setEnvironment("grey", testing::constantSky(0.4));
     const scene::View view = testing::lookAt(scene, {3, 3, 5}, {0, 1, 0});
     const std::size_t moving = nodeNamed(scene, "moving");
     scene::RenderSettings settings = small(16);
@@ -336,7 +313,7 @@ TEST_F(ProbeMotion, TenThousandUpdatesGainNothing) {
     probe.update = lighting::ProbeUpdate::Always;
     const scene::Scene scene = world.make();
     auto renderer = rendererOf(scene);
-    renderer->setEnvironment("grey", constant(0.4));
+    renderer->setEnvironment("grey", testing::constantSky(0.4));
     const scene::View view = testing::lookAt(scene, {0, 1, 5}, {0, 0, 0});
     std::size_t before = 0;
     std::uint64_t textures = 0;

@@ -22,30 +22,7 @@ using testing::blinnPhong;
 using testing::glowing;
 using testing::ProbeWorld;
 
-lighting::Cubemap constant(const glm::vec3& radiance, int width = 16) {
-    return lighting::cubeFromAnalytic(lighting::ConstantEnvironment{glm::dvec3(radiance)}, width);
-}
-
-class Probes : public testing::GlTest {
-protected:
-    std::unique_ptr<scene::Renderer> rendererOf(const scene::Scene& scene) {
-        auto made = scene::Renderer::make(device(), scene);
-        EXPECT_TRUE(made.ok()) << made.error().message();
-        return std::move(*made);
-    }
-    static scene::Frame frameOf(scene::Renderer& renderer, const scene::View& view,
-                                const scene::RenderSettings& settings) {
-        auto frame = renderer.render(view, settings);
-        EXPECT_TRUE(frame.ok()) << frame.error().message();
-        return std::move(*frame);
-    }
-    static scene::RenderSettings small(int side = 48) {
-        scene::RenderSettings settings;
-        settings.width = settings.height = side;
-        settings.backdrop = false;
-        return settings;
-    }
-};
+class Probes : public testing::ProbeTest {};
 
 float greatest(const core::Image& image) {
     float most = 0.0f;
@@ -104,9 +81,9 @@ TEST_F(Probes, AConstantWorldIsUnchangedByRandomLayouts) {
         }
         const scene::Scene scene = world.make();
         auto renderer = rendererOf(scene);
-        renderer->setEnvironment("white", constant(glm::vec3(1.0f)));
+        renderer->setEnvironment("white", testing::constantSky(1.0));
         const scene::Frame frame =
-            frameOf(*renderer, testing::lookAt(scene, {0, 0.5f, 6}, {0, 0.5f, 0}, 0.8f), small());
+            frameOf(*renderer, testing::lookAt(scene, {0, 0.5f, 6}, {0, 0.5f, 0}, 0.8f), small(48));
         int covered = 0;
         // Half floats round to 5e-4 in level 0 and in the mips.
         EXPECT_LT(worstFromOne(frame.radiance, covered), 1e-3f) << "layout " << layout;
@@ -125,7 +102,7 @@ TEST_F(Probes, AClosedRoomKeepsTheSkyOut) {
     probe.exterior = false;
     const scene::Scene scene = world.make();
     auto renderer = rendererOf(scene);
-    renderer->setEnvironment("white", constant(glm::vec3(1.0f)));
+    renderer->setEnvironment("white", testing::constantSky(1.0));
     const scene::View inside = testing::lookAt(scene, {0, 1.4f, 2.5f}, {0.2f, 1.0f, -2});
     const scene::Frame frame = frameOf(*renderer, inside, small(64));
     EXPECT_LT(greatest(frame.radiance), 1e-3f);
@@ -138,7 +115,7 @@ TEST_F(Probes, AClosedRoomKeepsTheSkyOut) {
               blinnPhong(glm::vec3(0.8f), glm::vec3(0.04f), 30.0f));
     const scene::Scene bare = open.make();
     auto bright = rendererOf(bare);
-    bright->setEnvironment("white", constant(glm::vec3(1.0f)));
+    bright->setEnvironment("white", testing::constantSky(1.0));
     EXPECT_GT(greatest(frameOf(*bright, inside, small(64)).radiance), 0.5f);
 }
 
@@ -191,7 +168,7 @@ TEST_F(Probes, ARoomIsLitByItsLamp) {
     probe.exterior = false;
     const scene::Scene scene = world.make();
     auto renderer = rendererOf(scene);
-    renderer->setEnvironment("black", constant(glm::vec3(0.0f)));
+    renderer->setEnvironment("black", testing::constantSky(0.0));
     const scene::View down = testing::lookAt(scene, {0, 1.4f, 2.5f}, {0.0f, 0.0f, 0.5f}, 0.3f);
     const scene::Frame frame = frameOf(*renderer, down, small(16));
     // A square of 1 m at 1.15 m above the probe, about a normal that points at it: with a = .5 and
@@ -217,9 +194,9 @@ TEST_F(Probes, WhatStandsStillCostsNothing) {
     renderer->setEnvironment("gradient",
                              lighting::cubeFromAnalytic(lighting::GradientEnvironment{}, 32));
     const scene::View view = testing::lookAt(scene, {0, 1, 5}, {0, 0, 0});
-    const scene::Frame first = frameOf(*renderer, view, small());
+    const scene::Frame first = frameOf(*renderer, view, small(48));
     EXPECT_EQ(first.counters.probeFaces, 6u);
-    const gl::WorkCounters second = frameOf(*renderer, view, small()).counters;
+    const gl::WorkCounters second = frameOf(*renderer, view, small(48)).counters;
     EXPECT_EQ(second.probeFaces, 0u);
     EXPECT_EQ(second.passes, 1u);
     EXPECT_EQ(second.uploads, 0u);

@@ -84,9 +84,9 @@ core::Image byUs(const TemporaryFolder& folder, const std::string& scene, const 
                  "9", view);
 }
 
-/// What two filters of one cube may differ by: the built-in renderer makes coarse levels and
-/// irradiance in passes over half floats, from some fetches a texel; a host's are exact sums. A
-/// wall of one colour is rounded as one, so that the mean may be most of a step.
+/// What two filters of one cube may differ by: the built-in renderer makes coarse levels in passes,
+/// from some fetches a texel, up to 2.9 % of the peak off a host's exact sums. A wall of one colour
+/// is rounded as one, so that the mean may be a good part of a step.
 bool near(const core::Image& a, const core::Image& b, const char* what) {
     const Difference d = compare(a, b, 2.5 / 255.0);
     std::printf("%s: largest %.2f / 255, mean %.4f / 255\n", what, 255.0 * d.largest,

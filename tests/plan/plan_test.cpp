@@ -356,6 +356,34 @@ TEST(Plan, CapturesShareTheBudget) {
     EXPECT_NE(planText(result).find("Probe 'lobby': 3 of 3"), std::string::npos);
 }
 
+// A host draws faces after the plan is made: none of them is published before all are there.
+TEST(Plan, FacesThatComeLaterArePublishedLater) {
+    PlanInput input = scene({ball()});
+    ProbeView probe;
+    probe.subject = "hall";
+    probe.influence = lighting::place({}, glm::mat4(1.0f), false);
+    probe.stale.fill(true);
+    input.probes = {probe};
+    input.faceBudget = 6;
+    EXPECT_TRUE(plan(input).runs("probe-compose"));
+    input.facesComeLater = true;
+    const EffectPlan asks = plan(input);
+    EXPECT_EQ(asks.probeFaces.size(), 6u);
+    EXPECT_TRUE(asks.probeWork.empty());
+    input.probes[0].stale.fill(false);
+    input.probes[0].drawn.fill(true);
+    input.probes[0].awaited[3] = true;
+    const EffectPlan waits = plan(input);
+    EXPECT_TRUE(waits.probeFaces.empty());
+    EXPECT_TRUE(waits.probeWork.empty());
+    EXPECT_NE(planText(waits).find("waits for faces that were asked for"), std::string::npos);
+    input.probes[0].awaited[3] = false;
+    const EffectPlan publishes = plan(input);
+    ASSERT_EQ(publishes.probeWork.size(), 1u);
+    EXPECT_TRUE(publishes.probeWork[0].publish);
+    EXPECT_FALSE(publishes.drawChoices.empty());
+}
+
 TEST(Plan, MirrorsAloneReadTheGradients) {
     DrawView rough = ball();
     rough.sharpest = 2048.0;

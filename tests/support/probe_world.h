@@ -3,12 +3,17 @@
 // Worlds of boxes, balls and light probes, made in memory.
 #pragma once
 
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "lighting/environment.h"
 #include "scene/camera.h"
 #include "scene/probe_observer.h"
+#include "scene/renderer.h"
 #include "scene/scene.h"
+#include "support/gl_fixture.h"
 #include "support/shapes.h"
 
 namespace lodestar::testing {
@@ -123,6 +128,32 @@ private:
     std::vector<lighting::Probe> probes_;
     std::vector<lighting::Cubemap> maps_;
 };
+
+/// Renders worlds.
+class ProbeTest : public GlTest {
+protected:
+    std::unique_ptr<scene::Renderer> rendererOf(const scene::Scene& scene) {
+        auto made = scene::Renderer::make(device(), scene);
+        EXPECT_TRUE(made.ok()) << made.error().message();
+        return std::move(*made);
+    }
+    static scene::Frame frameOf(scene::Renderer& renderer, const scene::View& view,
+                                const scene::RenderSettings& settings) {
+        auto frame = renderer.render(view, settings);
+        EXPECT_TRUE(frame.ok()) << frame.error().message();
+        return std::move(*frame);
+    }
+    static scene::RenderSettings small(int side) {
+        scene::RenderSettings settings;
+        settings.width = settings.height = side;
+        settings.backdrop = false;
+        return settings;
+    }
+};
+
+inline lighting::Cubemap constantSky(double radiance) {
+    return lighting::cubeFromAnalytic(lighting::ConstantEnvironment{glm::dvec3(radiance)}, 16);
+}
 
 inline scene::View lookAt(const scene::Scene& scene, const glm::vec3& eye, const glm::vec3& target,
                           float fov = 1.0f) {

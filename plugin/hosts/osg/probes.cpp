@@ -318,6 +318,8 @@ LodestarStatus Probes::show(LodestarPlan plan) {
             state_->getTextureAttribute(unit, osg::StateAttribute::TEXTURE);
         if (texture != nullptr) {
             faceState_->setTextureAttribute(unit, texture);
+        } else {
+            faceState_->removeTextureAttribute(unit, osg::StateAttribute::TEXTURE);
         }
     }
     return LODESTAR_OK;
