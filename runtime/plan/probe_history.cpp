@@ -30,9 +30,10 @@ double lengthOf(const std::array<glm::dvec3, 3>& rows) {
                      glm::dot(rows[2], rows[2]));
 }
 
-std::string percent(double share) {
-    return std::isfinite(share) ? std::to_string(std::lround(100.0 * share)) + " %"
-                                : std::string("from darkness");
+std::string changeText(double share) {
+    return std::isfinite(share)
+               ? "its light has changed by " + std::to_string(std::lround(100.0 * share)) + " %"
+               : std::string("there is light where there was none");
 }
 
 /// Marks the faces that see what has moved.
@@ -64,6 +65,7 @@ void publish(ProbeHistory& history) {
     history.again.fill(false);
     history.drawn.fill(false);
     history.drawnFor = 0;
+    history.asked = false;
     history.sinceCapture = 0;
     history.speed = 0.0;
     if (any(history.stale)) {
@@ -74,15 +76,21 @@ void publish(ProbeHistory& history) {
 void markChanges(ProbeHistory& history, const ProbeView& view, const MovedIndex& moved,
                  double lightThreshold) {
     using lighting::ProbeUpdate;
-    const bool resting = !any(history.stale) && !any(history.drawn);
+    const bool begins = !any(history.drawn); // a round, if there is one
+    const bool rests = view.update == ProbeUpdate::Once || view.update == ProbeUpdate::OnDemand;
+    if (history.ready && rests && begins && !history.asked) {
+        history.stale.fill(false); // what moved during the first round is not asked for
+    }
+    const bool resting = begins && !any(history.stale);
     if (history.requested) {
         markAll(history, "it is asked for");
         history.requested = false;
+        history.asked = true;
     } else if (!history.ready || view.update == ProbeUpdate::OnChange) {
-        if (history.ready && history.position != view.position) {
+        if (history.position && history.position != view.position) {
             markAll(history, "it moved itself");
-        } else if (resting && view.lightChange > lightThreshold) {
-            markAll(history, "its light has changed by " + percent(view.lightChange));
+        } else if (begins && view.lightChange > lightThreshold) {
+            markAll(history, changeText(view.lightChange));
         }
         markMoved(history, view, moved);
     } else if (resting && view.update == ProbeUpdate::Always) {
@@ -136,10 +144,11 @@ double lightChange(const LightState& then, const LightState& now) {
         change += lengthOf({a[0] - b[0], a[1] - b[1], a[2] - b[2]});
         sum += lengthOf(a);
     }
-    if (!(change > 0.0)) {
+    if (then == now || change == 0.0) {
         return 0.0;
     }
-    return sum > 0.0 ? change / sum : std::numeric_limits<double>::infinity();
+    return sum > 0.0 && std::isfinite(change) ? change / sum
+                                              : std::numeric_limits<double>::infinity();
 }
 
 void observe(ProbeHistory& history, ProbeView& view, const MovedIndex& moved,
@@ -149,6 +158,13 @@ void observe(ProbeHistory& history, ProbeView& view, const MovedIndex& moved,
     view.lightChange = history.ready ? lightChange(history.capturedUnder, light) : 0.0;
     if (!view.fromFile && view.influence) {
         markChanges(history, view, moved, lightThreshold);
+    } else { // a round that was begun is begun anew: others may draw where its faces wait
+        for (std::size_t face = 0; face < 6; ++face) {
+            history.stale[face] = history.stale[face] || history.drawn[face];
+        }
+        history.drawn.fill(false);
+        history.again.fill(false);
+        history.drawnFor = 0;
     }
     history.position = view.position;
     view.skyChanged = !history.ready || history.composedUnder != light.sky;
@@ -158,6 +174,8 @@ void observe(ProbeHistory& history, ProbeView& view, const MovedIndex& moved,
     view.because = history.because;
     view.waiting = any(view.stale) ? history.waiting : 0;
     view.speed = history.speed;
+    view.madeLevel = history.madeLevel;
+    view.madeIrradiance = history.madeIrradiance;
     view.fadeLeft = history.fadeLeft;
     view.drawnFor = history.drawnFor;
 }
@@ -186,6 +204,8 @@ void executed(ProbeHistory& history, std::size_t probe, const EffectPlan& plan,
         }
         if (work.compose) {
             history.ready = true;
+            history.madeLevel = work.lastLevel;
+            history.madeIrradiance = work.irradiance;
             history.composedUnder = light.sky;
             history.fadeLeft = work.fadeLeft - 1;
         }

@@ -69,6 +69,9 @@ struct ProbeHistory {
     std::array<bool, 6> again{}; ///< changed since they were drawn: stale in the next round
     bool ready = false;
     bool requested = false;
+    bool asked = false; ///< this round is a request's
+    int madeLevel = 0;  ///< the deepest that its light has
+    bool madeIrradiance = false;
     std::string because = "it shows nothing yet";
     int waiting = 0;      ///< frames
     int drawnFor = 0;     ///< frames that this round has taken

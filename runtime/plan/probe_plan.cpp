@@ -165,8 +165,8 @@ private:
     [[nodiscard]] double urgency(std::size_t i) const {
         const ProbeView& probe = input_.probes[i];
         const double waited = 1.0 + static_cast<double>(probe.waiting);
-        return (probe.ready ? 1.0 : 1e6) * (0.01 + receivers_[i].share) * (1.0 + probe.speed) *
-               waited * waited;
+        return (probe.ready ? 1.0 : 1e6) * (0.01 + receivers_[i].share) *
+               (1.0 + std::min(probe.speed, 10.0)) * waited * waited;
     }
     /// Probes that want faces: one that has been begun is finished before another is.
     [[nodiscard]] std::vector<std::size_t> inTurn() const {
@@ -241,8 +241,13 @@ private:
         const bool first = probe.fromFile && !probe.ready;
         const bool needed = probe.influence && (lit.count > 0 || work.publish);
         const bool shows = probe.ready || work.publish || first;
-        work.compose =
-            needed && shows && (work.publish || probe.fadeLeft > 0 || probe.skyChanged || first);
+        // A new receiver may read what none did before.
+        work.lastLevel = lastLevel(probe, lit);
+        work.irradiance = lit.diffuse || lit.count == 0;
+        const bool more =
+            work.lastLevel > probe.madeLevel || (lit.diffuse && !probe.madeIrradiance);
+        work.compose = needed && shows &&
+                       (work.publish || probe.fadeLeft > 0 || probe.skyChanged || first || more);
         if (!work.compose) {
             return;
         }
@@ -250,8 +255,6 @@ private:
         work.fadeLeft = !work.publish ? std::max(probe.fadeLeft, 1)
                         : probe.ready ? std::clamp(took, 1, kLongestFade)
                                       : 1;
-        work.lastLevel = lastLevel(probe, lit);
-        work.irradiance = lit.diffuse || lit.count == 0;
         result_.probeWork.push_back(work);
         describe(work);
     }
@@ -262,8 +265,9 @@ private:
         Effect compose{"probe-compose", probe.subject, Decision::Run, {}, {}};
         compose.reason = work.publish         ? "composed: its faces are published"
                          : probe.fadeLeft > 0 ? "composed: what was published fades in"
-                         : probe.fromFile     ? "composed: a file's light is shown"
-                                              : "composed again: the sky has changed";
+                         : !probe.ready       ? "composed: a file's light is shown"
+                         : probe.skyChanged   ? "composed again: the sky has changed"
+                                            : "composed again: what it lights now reads more of it";
         // And one for what it sees of suns.
         const std::uint64_t suns = input_.rsrmLights.empty() ? 0 : 1;
         compose.cost = {6 + suns, 6 + suns, 6 * faceTexels(probe) + suns * 26 * 2, 0};

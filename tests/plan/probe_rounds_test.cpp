@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+//
+// Rounds of faces that something comes between: movement, changed light, a probe that moves or
+// goes.
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "plan/probe_worlds.h"
+
+namespace lodestar::plan {
+namespace {
+
+std::array<glm::dvec3, 3> sunOf(double power) {
+    return along(glm::dvec3(power), {0, 1, 0});
+}
+
+// Captured for a mirror alone it has level 0 and no irradiance; a matt draw that comes asks for
+// both.
+TEST(ProbeRounds, ANewReceiverGetsWhatItReads) {
+    World world = lobby();
+    world.input.draws[0].diffuse = false;
+    world.input.draws[0].bluntest = world.input.draws[0].sharpest = 1e6;
+    const EffectPlan first = world.frame();
+    EXPECT_EQ(first.probeWork[0].lastLevel, 0);
+    EXPECT_FALSE(first.probeWork[0].irradiance);
+    world.input.draws.push_back(drawAt({1, 0, 2}));
+    const EffectPlan second = world.frame();
+    EXPECT_TRUE(second.probeFaces.empty());
+    ASSERT_NE(workOf(second, 0), nullptr);
+    EXPECT_TRUE(workOf(second, 0)->irradiance);
+    EXPECT_GT(workOf(second, 0)->lastLevel, 3);
+    EXPECT_TRUE(world.frame().probeWork.empty());
+}
+
+// Q may begin where P's inside is gone; P draws all of its round anew when it is back.
+TEST(ProbeRounds, AProbeWhoseInsideGoesBeginsAnew) {
+    World world = lobby();
+    world.probes().push_back(probeAt("Q", {8, 0, 0}, 10.0, 1.0));
+    world.histories().emplace_back();
+    world.input.draws.push_back(drawAt({8, 0, 2}));
+    world.input.draws[0].screenShare = 1.0f;
+    world.input.faceBudget = 4;
+    const EffectPlan begun = world.frame();
+    ASSERT_EQ(begun.probeFaces.size(), 4u);
+    ASSERT_EQ(begun.probeFaces[0].probe, 0u);
+    const glm::dvec3 size = world.probes()[0].influence.size;
+    world.probes()[0].influence.size = glm::dvec3(0.0);
+    EXPECT_EQ(world.frame().probeFaces[0].probe, 1u); // Q begins
+    world.probes()[0].influence.size = size;
+    std::size_t drawn = 0;
+    for (int i = 0; i < 6 && !world.histories()[0].ready; ++i) {
+        for (const ProbeFace& face : world.frame().probeFaces) {
+            drawn += face.probe == 0 ? 1 : 0;
+        }
+    }
+    EXPECT_TRUE(world.histories()[0].ready);
+    EXPECT_EQ(drawn, 6u);
+}
+
+// A lift that never rests crosses two faces; the others still see that the light has changed.
+TEST(ProbeRounds, ChangedLightIsSeenThoughSomethingAlwaysMoves) {
+    World world = lobby();
+    world.light.sources = {sunOf(1.0)};
+    world.frame();
+    world.input.faceBudget = 1;
+    const auto step = [&] {
+        world.moved = {{"lift", {-0.4f, -0.4f, -4.0f}, {0.4f, 0.4f, -3.0f}, 0.1},
+                       {"cart", {3.0f, -0.4f, -0.4f}, {4.0f, 0.4f, 0.4f}, 0.1}};
+        return world.frame();
+    };
+    step();
+    world.light.sources = {sunOf(3.0)};
+    std::array<int, 6> drawn{};
+    for (int i = 0; i < 60; ++i) {
+        for (const ProbeFace& face : step().probeFaces) {
+            ++drawn[static_cast<std::size_t>(face.face)];
+        }
+    }
+    for (const int count : drawn) {
+        EXPECT_GT(count, 0);
+    }
+    EXPECT_LT(lightChange(world.histories()[0].capturedUnder, world.light), 0.1);
+}
+
+TEST(ProbeRounds, AProbeThatMovesInItsFirstRoundIsCapturedWhereItStands) {
+    World world = lobby();
+    world.input.faceBudget = 2;
+    world.frame();
+    world.probes()[0].position.x = 1.0;
+    std::size_t drawn = 2;
+    for (int i = 0; i < 8; ++i) {
+        drawn += world.frame().probeFaces.size();
+    }
+    EXPECT_EQ(drawn, 6u + 2u); // the two that were drawn elsewhere
+}
+
+TEST(ProbeRounds, OnceIsOnce) {
+    using lighting::ProbeUpdate;
+    for (const ProbeUpdate update : {ProbeUpdate::Once, ProbeUpdate::OnDemand}) {
+        World world = lobby(update);
+        world.input.faceBudget = 2;
+        std::size_t drawn = 0;
+        const auto step = [&] {
+            world.moved = {{"all", {-9, -9, -9}, {9, 9, 9}, 0.1}};
+            drawn += world.frame().probeFaces.size();
+        };
+        for (int i = 0; i < 10; ++i) {
+            step();
+        }
+        EXPECT_EQ(drawn, 6u);
+        world.histories()[0].requested = true;
+        for (int i = 0; i < 10; ++i) {
+            step();
+        }
+        EXPECT_EQ(drawn, 12u);
+    }
+}
+
+TEST(ProbeRounds, LightThatIsNoNumberCountsAsChanged) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    LightState one, other;
+    one.sources = {sunOf(1.0)};
+    for (const double power : {infinity, nan}) {
+        other.sources = {{glm::dvec3(power), glm::dvec3(power), glm::dvec3(power)}};
+        EXPECT_TRUE(std::isinf(lightChange(one, other)));
+        EXPECT_TRUE(std::isinf(lightChange(other, one)));
+    }
+    EXPECT_EQ(lightChange(one, one), 0.0);
+    World world = lobby();
+    world.frame();
+    world.light.sources = {sunOf(1.0)};
+    EXPECT_EQ(captureText(world.frame(), "Lobby"),
+              "6 of 6 faces: there is light where there was none");
+}
+
+} // namespace
+} // namespace lodestar::plan
