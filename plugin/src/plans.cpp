@@ -98,6 +98,7 @@ std::vector<lighting::DayMoment> describeLights(LodestarContext& context, plan::
         view.subject =
             light.map.day().name.empty() ? "light " + std::to_string(i) : light.map.day().name;
         view.shines = moment.visibility > 0.0;
+        view.sky = light.map.day().kind == lighting::LightKind::Sky;
         view.changed = light.planned != light.version;
         view.texels = light.map.uploadTexels();
         view.uploadBytes = light.map.uploadBytes();

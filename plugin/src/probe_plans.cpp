@@ -126,9 +126,9 @@ ProbePlanning::ProbePlanning(LodestarContext& context,
     active_ = true;
     number_ = context.plans.next();
     markMoved(input);
+    const plan::MovedIndex moved(std::move(moved_));
     light_ = lightState(context, moments);
     input.facesComeLater = true;
-    const plan::MovedIndex moved(moved_);
     for (const LodestarProbe handle : context.probeOrder) {
         const PlacedProbe& placed = *context.probes.find(handle);
         ProbeState& state = states_.emplace_back(placed.state);

@@ -20,8 +20,8 @@ namespace {
 constexpr int kDefaultWidth = 128;
 /// Wider faces are of no use to a probe.
 constexpr int kWidest = 2048;
-/// Irradiance is made of the level whose faces are as wide, as the built-in renderer's is.
-constexpr int kIrradianceSource = 8;
+/// Levels of tents are wider; coarser ones are means over round lobes, too blunt for irradiance.
+constexpr int kWidestRound = 16;
 constexpr double kGreatest = 1e9;
 
 core::Error refusal(const char* what, const std::string& where) {
@@ -113,10 +113,10 @@ glm::vec4 repaired(const float* pixel, std::uint64_t& count) {
     return result;
 }
 
-/// The level whose faces are as wide as irradiance is made of, or the base of a smaller chain.
+/// The coarsest level that is made by tents.
 int irradianceLevel(const lighting::Cubemap& chain) {
     int level = 0;
-    while (level + 1 < chain.levelCount() && chain.width(level) > kIrradianceSource) {
+    while (level + 1 < chain.levelCount() && chain.width(level + 1) > kWidestRound) {
         ++level;
     }
     return level;

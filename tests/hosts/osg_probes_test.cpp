@@ -61,10 +61,14 @@ std::string room(const TemporaryFolder& folder, const Room& with) {
     return file.write(folder).string();
 }
 
-/// @param probe of the room; empty: none
-std::string lighting(const TemporaryFolder& folder, const std::string& probe,
-                     const std::string& more = {}) {
-    return day(folder, "\"probes\": [" + probe + "], " + more);
+/// A painted sky, and a probe of the room; empty: none.
+std::string lighting(const TemporaryFolder& folder, const std::string& probe) {
+    return folder
+        .write("sky.lodestar.json", R"({"lodestar": 1, "probes": [)" + probe + R"(], "lights": [
+            {"name": "sky", "kind": "sky", "keys": [{"hour": 12, "gradient": {"stops": [
+            {"at": 90, "color": [0.6, 1.2, 3.0]}, {"at": 0, "color": [3.0, 3.2, 3.4]},
+            {"at": 0, "color": [1.0, 0.8, 0.6]}, {"at": -90, "color": [0.5, 0.4, 0.3]}]}}]}]})")
+        .string();
 }
 
 constexpr const char* kRoom = R"({"name": "room", "position": [0.3, 1.6, 0.6],
@@ -85,13 +89,13 @@ core::Image byUs(const TemporaryFolder& folder, const std::string& scene, const 
 }
 
 /// What two filters of one cube may differ by: the built-in renderer makes coarse levels in passes,
-/// from some fetches a texel, up to 2.9 % of the peak off a host's exact sums. A wall of one colour
-/// is rounded as one, so that the mean may be a good part of a step.
+/// from some fetches a texel, up to 2.9 % of the peak off a host's exact sums. Few pixels show it
+/// fully: those where lookups jump from wall to wall.
 bool near(const core::Image& a, const core::Image& b, const char* what) {
     const Difference d = compare(a, b, 2.5 / 255.0);
     std::printf("%s: largest %.2f / 255, mean %.4f / 255\n", what, 255.0 * d.largest,
                 255.0 * d.mean);
-    return d.largest <= 9.5 / 255.0 && d.mean <= 0.25 / 255.0;
+    return d.largest <= 15.0 / 255.0 && d.mean <= 0.1 / 255.0;
 }
 
 // Captured, composed, corrected for parallax, looked up: all by the same rules.
