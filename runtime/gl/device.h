@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -60,6 +61,11 @@ public:
     void limitBufferTexels(int most) {
         capabilities_.maxBufferTexels = std::min(capabilities_.maxBufferTexels, most);
     }
+    /// Has no memory for targets beyond that many bytes of textures: as a device that has no more.
+    void limitTargetBytes(std::uint64_t most) { targetBytes_ = most; }
+    [[nodiscard]] bool hasBytesFor(std::uint64_t bytes) const {
+        return counters_.textureBytes + bytes <= targetBytes_;
+    }
     [[nodiscard]] WorkCounters& counters() { return counters_; }
     /// The texts of GL errors and undefined behaviour reported so far.
     [[nodiscard]] const std::vector<std::string>& messages() const { return messages_; }
@@ -77,6 +83,7 @@ private:
     WorkCounters counters_;
     std::vector<std::string> messages_;
     unsigned boundProgram_ = 0;
+    std::uint64_t targetBytes_ = std::numeric_limits<std::uint64_t>::max();
 };
 
 } // namespace lodestar::gl

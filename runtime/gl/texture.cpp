@@ -39,6 +39,13 @@ GLint glMinification(const SamplerState& sampler) {
     return sampler.minifyLinear ? GL_LINEAR_MIPMAP_NEAREST : GL_NEAREST_MIPMAP_NEAREST;
 }
 
+core::Error noMemoryFor(const char* label) {
+    return {core::ErrorCode::NoOpenGl,
+            std::string("the driver has no memory for the texture '") + label + "'",
+            {},
+            {}};
+}
+
 /// Drains the error flags; out of memory is the one that is the world's fault.
 core::Result<void> checkAllocation(const char* label) {
     bool outOfMemory = false;
@@ -225,6 +232,10 @@ core::Result<Texture> Texture::makeCubeTarget(Device& device, int width, int lev
     LODESTAR_EXPECT(width > 0 && levels > 0 && levels <= lighting::fullLevelCount(width),
                     "a cube target has texels and levels");
     (void)checkAllocation(label); // what was reported before is not this texture's
+    if (!device.hasBytesFor(std::uint64_t{64} * static_cast<std::uint64_t>(width) *
+                            static_cast<std::uint64_t>(width))) {
+        return noMemoryFor(label);
+    }
     Texture texture(device, GL_TEXTURE_CUBE_MAP);
     texture.width_ = width;
     texture.levelCount_ = levels;
