@@ -276,8 +276,9 @@ void ProbePlanning::execute(const plan::EffectPlan& plan, const plan::PlanInput&
     work(plan);
     askFaces(plan, packet);
     describe(input, packet);
+    const std::vector<plan::ProbeDone> done = plan::doneFor(plan, states_.size());
     for (std::size_t i = 0; i < states_.size(); ++i) {
-        plan::executed(states_[i].history, i, plan, light_);
+        plan::executed(states_[i].history, done[i], light_);
     }
     for (std::size_t i = 0; i < input.draws.size(); ++i) {
         packet.drawProbes.push_back(drawProbesOf({}, 0, i, context_.probeOrder));

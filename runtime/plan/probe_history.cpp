@@ -180,35 +180,40 @@ void observe(ProbeHistory& history, ProbeView& view, const MovedIndex& moved,
     view.drawnFor = history.drawnFor;
 }
 
-void executed(ProbeHistory& history, std::size_t probe, const EffectPlan& plan,
-              const LightState& light) {
-    bool faces = false;
+std::vector<ProbeDone> doneFor(const EffectPlan& plan, std::size_t probes) {
+    std::vector<ProbeDone> done(probes);
     for (const ProbeFace& face : plan.probeFaces) {
-        if (face.probe == probe) {
-            if (!any(history.drawn)) {
-                history.drawingUnder = light;
-            }
-            history.stale[static_cast<std::size_t>(face.face)] = false;
-            history.drawn[static_cast<std::size_t>(face.face)] = true;
-            faces = true;
-        }
+        done[face.probe].faces[static_cast<std::size_t>(face.face)] = true;
+    }
+    for (const ProbeWork& work : plan.probeWork) {
+        done[work.probe].work = &work;
+    }
+    return done;
+}
+
+void executed(ProbeHistory& history, const ProbeDone& done, const LightState& light) {
+    const bool faces = any(done.faces);
+    if (faces && !any(history.drawn)) {
+        history.drawingUnder = light;
+    }
+    for (std::size_t face = 0; face < 6; ++face) {
+        history.stale[face] = history.stale[face] && !done.faces[face];
+        history.drawn[face] = history.drawn[face] || done.faces[face];
     }
     history.drawnFor = any(history.drawn) ? history.drawnFor + 1 : 0;
     history.waiting = any(history.stale) && !faces ? history.waiting + 1 : 0;
-    for (const ProbeWork& work : plan.probeWork) {
-        if (work.probe != probe) {
-            continue;
-        }
-        if (work.publish) {
-            publish(history);
-        }
-        if (work.compose) {
-            history.ready = true;
-            history.madeLevel = work.lastLevel;
-            history.madeIrradiance = work.irradiance;
-            history.composedUnder = light.sky;
-            history.fadeLeft = work.fadeLeft - 1;
-        }
+    if (done.work == nullptr) {
+        return;
+    }
+    if (done.work->publish) {
+        publish(history);
+    }
+    if (done.work->compose) {
+        history.ready = true;
+        history.madeLevel = done.work->lastLevel;
+        history.madeIrradiance = done.work->irradiance;
+        history.composedUnder = light.sky;
+        history.fadeLeft = done.work->fadeLeft - 1;
     }
 }
 

@@ -90,8 +90,16 @@ struct ProbeHistory {
 void observe(ProbeHistory& history, ProbeView& view, const MovedIndex& moved,
              const LightState& light, double lightThreshold);
 
-/// Notes what a plan has had done. @param light the frame's
-void executed(ProbeHistory& history, std::size_t probe, const EffectPlan& plan,
-              const LightState& light);
+/// What a plan has had done for a probe.
+struct ProbeDone {
+    std::array<bool, 6> faces{};     ///< those drawn
+    const ProbeWork* work = nullptr; ///< of the plan; none where it has none
+};
+
+/// What a plan has for each of so many probes. Refers to the plan.
+[[nodiscard]] std::vector<ProbeDone> doneFor(const EffectPlan& plan, std::size_t probes);
+
+/// Notes what has been done. @param light the frame's
+void executed(ProbeHistory& history, const ProbeDone& done, const LightState& light);
 
 } // namespace lodestar::plan

@@ -20,6 +20,7 @@ namespace lodestar::plan {
 
 struct PlanInput;
 struct EffectPlan;
+struct ProbeWork;
 
 /// A probe as the planner sees it.
 struct ProbeView {

@@ -130,8 +130,9 @@ void ProbeObserver::describe(const plan::LightState& light, bool drawsKept, doub
 }
 
 void ProbeObserver::executed(const plan::EffectPlan& plan) {
+    const std::vector<plan::ProbeDone> done = plan::doneFor(plan, places_.size());
     for (std::size_t i = 0; i < places_.size(); ++i) {
-        plan::executed(histories_[i], i, plan, light_);
+        plan::executed(histories_[i], done[i], light_);
     }
 }
 

@@ -91,8 +91,9 @@ void measure(int probes, int draws, int repeats) {
         }
     };
     const auto note = [&](const EffectPlan& made) {
+        const std::vector<ProbeDone> done = doneFor(made, world.histories.size());
         for (std::size_t i = 0; i < world.histories.size(); ++i) {
-            executed(world.histories[i], i, made, light);
+            executed(world.histories[i], done[i], light);
         }
     };
     for (ProbeHistory& history : world.histories) {

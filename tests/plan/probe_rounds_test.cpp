@@ -3,6 +3,7 @@
 // Rounds of faces that something comes between: movement, changed light, a probe that moves or
 // goes.
 #include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -114,6 +115,46 @@ TEST(ProbeRounds, OnceIsOnce) {
             step();
         }
         EXPECT_EQ(drawn, 12u);
+    }
+}
+
+// All that 200 probes see moves in every frame and one face a frame is drawn, so that a round is 6
+// frames. One probe lights a share of 0 of the picture, the others .15: urgencies of .01 to .16, by
+// patience squared. A probe that has waited X frames is passed over only for such as have waited at
+// least X / r, r = sqrt(.16 / .01) = 4, for each once in the next X / r frames: these are at most
+// 200 rounds, so that X <= 1200 r, and it waits at most 1200 (r + 1) in all.
+TEST(ProbeRounds, OneFaceAFrameIsEnoughForNoneToStarve) {
+    constexpr int kProbes = 200, kLongest = 1200 * 5;
+    World world{std::vector<lighting::Probe>()};
+    for (int i = 0; i < kProbes; ++i) {
+        world.probes().push_back(
+            probeAt(std::string("p").append(std::to_string(i)), {10.0 * i, 0, 0}, 9.0, 1.0));
+        world.input.draws.push_back(drawAt({10.0f * static_cast<float>(i), 0, 1}));
+        world.input.draws.back().screenShare = i == 0 ? 0.0f : 0.15f;
+    }
+    world.histories().resize(kProbes);
+    world.input.faceBudget = 1;
+    std::vector<int> published(kProbes), rounds(kProbes), longest(kProbes);
+    for (int frame = 0; frame < 2 * kLongest; ++frame) {
+        world.moved = {{"all", {-1e4f, -9, -9}, {1e4f, 9, 9}, 0.0}};
+        const EffectPlan plan = world.frame();
+        ASSERT_EQ(plan.probeFaces.size(), 1u) << frame;
+        for (const ProbeWork& work : plan.probeWork) {
+            if (work.publish) {
+                ++rounds[work.probe];
+                longest[work.probe] = std::max(longest[work.probe], frame - published[work.probe]);
+                published[work.probe] = frame;
+            }
+        }
+        for (int i = 0; frame == 6 * kProbes && i < kProbes; ++i) {
+            EXPECT_EQ(rounds[static_cast<std::size_t>(i)], 1)
+                << i; // all show before one shows anew
+        }
+    }
+    for (int i = 0; i < kProbes; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        EXPECT_LE(std::max(longest[at], 2 * kLongest - published[at]), kLongest) << i;
+        EXPECT_GE(rounds[at], rounds[0]) << i; // what shows more is served no less often
     }
 }
 

@@ -70,8 +70,9 @@ public:
             observe(histories_[i], input.probes.back(), index, light, threshold);
         }
         EffectPlan result = plan(input);
+        const std::vector<ProbeDone> done = doneFor(result, probes_.size());
         for (std::size_t i = 0; i < probes_.size(); ++i) {
-            executed(histories_[i], i, result, light);
+            executed(histories_[i], done[i], light);
         }
         return result;
     }
