@@ -178,6 +178,7 @@ core::Result<scene::RenderSettings> renderSettings(const SceneOptions& options) 
     settings.backdrop = !options.noBackdrop;
     settings.seamless = !options.faceSeams;
     settings.faceBudget = options.faceBudget.value_or(settings.faceBudget);
+    settings.probeBudgetMs = options.probeBudgetMs.value_or(settings.probeBudgetMs);
     settings.lightThreshold = options.lightThreshold;
     if (!options.materialOverride.empty()) {
         auto values = parseOverride(options.materialOverride);
@@ -238,6 +239,11 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
         .add_option("--budget-faces", options.faceBudget,
                     "Faces of light probes drawn in a frame, at most (default: all that are due)")
         ->check(CLI::Range(0, 1000000));
+    command
+        .add_option("--budget-ms", options.probeBudgetMs,
+                    "Milliseconds of a frame for light probes, at most, by what they took in the\n"
+                    "frames before; one face a frame is drawn in any case (default: no bound)")
+        ->check(CLI::Range(0.0, 1e9));
     command
         .add_option(
             "--light-threshold", options.lightThreshold,

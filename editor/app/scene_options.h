@@ -35,7 +35,8 @@ struct SceneOptions {
     std::optional<double> time; ///< seconds
     std::string specular, diffuse;
     std::string materialOverride;
-    std::optional<int> faceBudget; ///< faces of light probes a frame
+    std::optional<int> faceBudget;       ///< faces of light probes a frame
+    std::optional<double> probeBudgetMs; ///< milliseconds of a frame for light probes
     double lightThreshold = scene::RenderSettings().lightThreshold;
     bool noBackdrop = false;
     bool faceSeams = false;

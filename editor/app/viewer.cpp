@@ -55,7 +55,8 @@ core::Result<std::unique_ptr<Viewer>> Viewer::make(gl::Device& device, LoadedSce
     std::unique_ptr<Viewer> viewer(new Viewer(device, options));
     viewer->lightChosen_ = !options.scene.environment.empty();
     viewer->settings_ = loaded.settings;
-    viewer->settings_.faceBudget = options.scene.faceBudget.value_or(kFacesAFrame);
+    viewer->settings_.faceBudget = options.scene.faceBudget.value_or(
+        options.scene.probeBudgetMs ? viewer->settings_.faceBudget : kFacesAFrame);
     viewer->request_ = loaded.camera;
     viewer->sceneIndex_ = loaded.sceneIndex;
     viewer->sceneCount_ = loaded.sceneCount;
@@ -233,6 +234,7 @@ core::Result<void> Viewer::drawFrame() {
     settings.samplesPerSide = coarse ? 1 : options_.samplesPerSide;
     if (document_.firstFrame) { // what a scene opens with is whole
         settings.faceBudget = std::max(settings.faceBudget, scene::RenderSettings().faceBudget);
+        settings.probeBudgetMs = scene::RenderSettings().probeBudgetMs;
         document_.firstFrame = false;
     }
     auto frame =

@@ -27,4 +27,10 @@ double Timer::milliseconds() const {
     return static_cast<double>(nanoseconds) * 1e-6;
 }
 
+bool Timer::isReady() const {
+    GLint ready = 0;
+    glGetQueryObjectiv(id_, GL_QUERY_RESULT_AVAILABLE, &ready);
+    return ready != 0;
+}
+
 } // namespace lodestar::gl

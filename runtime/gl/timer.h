@@ -19,6 +19,8 @@ public:
     void end();
     /// Milliseconds of the last stretch; waits for the result.
     [[nodiscard]] double milliseconds() const;
+    /// Whether the result is there: then nothing waits for it.
+    [[nodiscard]] bool isReady() const;
 
 private:
     unsigned id_ = 0;

@@ -126,6 +126,9 @@ struct PlanInput {
     std::size_t instancesPerPage = std::numeric_limits<std::size_t>::max();
     std::vector<CaptureView> captures;
     int faceBudget = 0; ///< faces captured in a frame, at most
+    /// Milliseconds of a frame for light probes by what they took before, at most, but for one face
+    /// and the light that must be made.
+    double probeBudgetMs = std::numeric_limits<double>::infinity();
     /// Faces are drawn after the plan is executed: what they complete, a later plan publishes.
     bool facesComeLater = false;
     std::vector<ProbeView> probes;

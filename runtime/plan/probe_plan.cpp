@@ -138,9 +138,12 @@ public:
                  EffectPlan& result)
         : input_(input), receivers_(receivers), result_(result),
           left_(std::max(input.faceBudget - static_cast<int>(result.captureFaces.size()), 0)),
-          drawnNow_(input.probes.size()) {}
+          leftMs_(input.probeBudgetMs), drawnNow_(input.probes.size()) {}
 
     void plan() {
+        for (std::size_t i = 0; i < input_.probes.size(); ++i) {
+            leftMs_ -= workOf(i, false).compose ? input_.probes[i].lightMs : 0.0;
+        }
         for (const std::size_t probe : inTurn()) {
             drawFaces(probe);
         }
@@ -186,6 +189,10 @@ private:
         const ProbeView& probe = input_.probes[i];
         for (int face = 0; face < 6 && left_ > 0; ++face) {
             if (probe.stale[static_cast<std::size_t>(face)]) {
+                if (!affords(i, face)) {
+                    left_ = 0;
+                    return;
+                }
                 ProbeFace drawn;
                 drawn.probe = i;
                 drawn.face = face;
@@ -194,6 +201,19 @@ private:
                 --left_;
             }
         }
+    }
+
+    /// Whether the frame has the milliseconds for the next of its faces, and takes them. A frame's
+    /// first face is free: a budget that is always spent on light would starve all that wait.
+    [[nodiscard]] bool affords(std::size_t i, int face) {
+        const ProbeView& probe = input_.probes[i];
+        const bool last = static_cast<int>(drawnNow_[i].size()) + 1 == countOf(probe.stale);
+        const double known = probe.faceMs[static_cast<std::size_t>(face)];
+        const double takes = known > 0.0 ? known : std::numeric_limits<double>::infinity();
+        const double light = last && !workOf(i, false).compose ? probe.lightMs : 0.0;
+        spentMs_ = !result_.probeFaces.empty() && takes + light > leftMs_;
+        leftMs_ -= std::isinf(leftMs_) ? 0.0 : takes + light;
+        return !spentMs_;
     }
 
     [[nodiscard]] bool publishes(std::size_t i) const {
@@ -223,40 +243,46 @@ private:
         } else if (countOf(probe.awaited) > 0) {
             effect.reason = "waits for faces that were asked for: " + probe.because;
         } else if (stale > 0) {
-            effect.reason = std::string("waits, the frame's faces are spent: ") +
-                            std::to_string(stale) + (stale == 1 ? " face, " : " faces, ") +
-                            probe.because;
+            effect.reason = std::string("waits, the frame's ") +
+                            (spentMs_ ? "milliseconds" : "faces") +
+                            " are spent: " + std::to_string(stale) +
+                            (stale == 1 ? " face, " : " faces, ") + probe.because;
         } else {
             effect.reason = "nothing that it sees has changed";
         }
         return effect;
     }
 
-    void makeLight(std::size_t i) {
+    /// What is made of a probe whose faces are published now or are not.
+    [[nodiscard]] ProbeWork workOf(std::size_t i, bool publish) const {
         const ProbeView& probe = input_.probes[i];
         const Receivers& lit = receivers_[i];
         ProbeWork work;
         work.probe = i;
-        work.publish = publishes(i);
+        work.publish = publish;
         const bool first = probe.fromFile && !probe.ready;
-        const bool needed = probe.influence && (lit.count > 0 || work.publish);
-        const bool shows = probe.ready || work.publish || first;
+        const bool needed = probe.influence && (lit.count > 0 || publish);
+        const bool shows = probe.ready || publish || first;
         // A new receiver may read what none did before.
         work.lastLevel = lastLevel(probe, lit);
         work.irradiance = lit.diffuse || lit.count == 0;
         const bool more =
             work.lastLevel > probe.madeLevel || (lit.diffuse && !probe.madeIrradiance);
-        work.compose = needed && shows &&
-                       (work.publish || probe.fadeLeft > 0 || probe.skyChanged || first || more);
-        if (!work.compose) {
-            return;
-        }
+        work.compose =
+            needed && shows && (publish || probe.fadeLeft > 0 || probe.skyChanged || first || more);
         const int took = probe.drawnFor + (drawnNow_[i].empty() ? 0 : 1);
-        work.fadeLeft = !work.publish ? std::max(probe.fadeLeft, 1)
+        work.fadeLeft = !publish      ? std::max(probe.fadeLeft, 1)
                         : probe.ready ? std::clamp(took, 1, kLongestFade)
                                       : 1;
-        result_.probeWork.push_back(work);
-        describe(work);
+        return work;
+    }
+
+    void makeLight(std::size_t i) {
+        const ProbeWork work = workOf(i, publishes(i));
+        if (work.compose) {
+            result_.probeWork.push_back(work);
+            describe(work);
+        }
     }
 
     void describe(const ProbeWork& work) {
@@ -294,7 +320,9 @@ private:
     const PlanInput& input_;
     const std::vector<Receivers>& receivers_;
     EffectPlan& result_;
-    int left_;
+    int left_;             ///< faces
+    double leftMs_;        ///< milliseconds
+    bool spentMs_ = false; ///< and not faces
     std::vector<std::vector<int>> drawnNow_;
 };
 

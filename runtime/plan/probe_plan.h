@@ -50,6 +50,9 @@ struct ProbeView {
     bool madeIrradiance = false; ///< whether it has any
     int fadeLeft = 0;            ///< frames until what was published last shows fully
     int drawnFor = 0;            ///< frames that the faces drawn have taken
+    /// What each face takes, milliseconds; 0: not known yet.
+    std::array<double, 6> faceMs{};
+    double lightMs = 0.0; ///< what making its light takes: composition, mips, irradiance
     bool operator==(const ProbeView&) const = default;
 };
 

@@ -150,7 +150,17 @@ core::Result<void> GpuProbes::prepare(gl::Device& device, const ProbeObserver& o
     return {};
 }
 
+void GpuProbes::describeTimes(gl::Device& device, std::span<plan::ProbeView> probes) {
+    if (!times_) {
+        times_.emplace(device, probes.size());
+    }
+    times_->describe(probes);
+}
+
 void GpuProbes::beginFace(const plan::ProbeFace& face) {
+    if (times_) {
+        times_->begin(face.probe, face.face);
+    }
     staging_.at(cubes_[face.probe].width).target.begin();
 }
 
@@ -160,6 +170,9 @@ void GpuProbes::endFace(const plan::ProbeFace& face) {
     staging.target.resolve(staging.faces, face.face);
     cubes.staged[static_cast<std::size_t>(face.face)] = true;
     ++device_->counters().probeFaces;
+    if (times_) {
+        times_->end();
+    }
 }
 
 void GpuProbes::publish(std::size_t probe) {
@@ -207,6 +220,9 @@ void GpuProbes::work(const plan::EffectPlan& plan, const Programs& programs,
                      const ProbeObserver& observer) {
     for (const plan::ProbeWork& work : plan.probeWork) {
         Cubes& cubes = cubes_[work.probe];
+        if (times_) {
+            times_->begin(work.probe, ProbeTimes::kLight);
+        }
         if (work.compose) {
             compose(work, programs.composition(plan),
                     observer.component(work.probe).map != nullptr);
@@ -217,6 +233,9 @@ void GpuProbes::work(const plan::EffectPlan& plan, const Programs& programs,
         cubes.lastLevel = std::min(work.lastLevel, cubes.lit.levelCount() - 1);
         work.irradiance ? filter_->fill(cubes.lit, cubes.lastLevel, irradiance_, cubes.tile)
                         : filter_->fillMips(cubes.lit, cubes.lastLevel);
+        if (times_) {
+            times_->end();
+        }
     }
 }
 

@@ -16,6 +16,7 @@
 #include "host/blocks.glsl"
 #include "plan/effect_plan.h"
 #include "scene/probe_observer.h"
+#include "scene/probe_times.h"
 
 namespace lodestar::scene {
 
@@ -39,6 +40,9 @@ public:
     /// is made half as wide, and counted. @errors NoOpenGl where it has none for the smallest
     [[nodiscard]] core::Result<void> prepare(gl::Device& device, const ProbeObserver& observer,
                                              const plan::EffectPlan& plan, core::Tally& warnings);
+
+    /// Fills in what each probe takes of the GPU's time. Measured from the first call on.
+    void describeTimes(gl::Device& device, std::span<plan::ProbeView> probes);
 
     /// Begins a face's pass; the caller draws, then ends it.
     void beginFace(const plan::ProbeFace& face);
@@ -81,6 +85,7 @@ private:
 
     gl::Device* device_ = nullptr;
     float written_ = 1.0f;
+    std::optional<ProbeTimes> times_;
     std::optional<gl::ProbeFilter> filter_;
     gl::IrradianceAtlas irradiance_;
     gl::CubeFaces faces_;

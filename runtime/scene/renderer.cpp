@@ -293,6 +293,7 @@ plan::PlanInput planInput(const Scene& scene, const View& view, const RenderSett
         planInput(scene, view, settings, beside(std::move(environment), described));
     describeLights(scene, drawItems(scene), settings.hour, described, shadows, input);
     input.faceBudget = settings.faceBudget;
+    input.probeBudgetMs = settings.probeBudgetMs;
     if (ProbeObserver observer(scene); !observer.empty()) {
         observer.describe({}, false, settings.lightThreshold, input);
     }
@@ -310,9 +311,13 @@ std::shared_ptr<const plan::EffectPlan> Renderer::State::planFrame(const View& v
     deformation.describe(scene, drawer.items(), input);
     describeLights(scene, drawer.items(), settings.hour, lights, shadows, input);
     input.faceBudget = settings.faceBudget;
+    input.probeBudgetMs = settings.probeBudgetMs;
     if (!observer.empty()) {
         observer.describe(lightState(environment, lights), planner.drawsKept(),
                           settings.lightThreshold, input);
+        if (std::isfinite(input.probeBudgetMs)) {
+            probes.describeTimes(device, input.probes);
+        }
     }
     return planner.plan();
 }

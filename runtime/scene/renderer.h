@@ -4,6 +4,7 @@
 // or shows the frame in a window.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -42,6 +43,9 @@ struct RenderSettings {
     bool seamless = true; ///< false filters each cube face on its own, for comparison only
     std::optional<MaterialOverride> materialOverride;
     int faceBudget = 1000000; ///< faces of light probes that a frame draws, at most
+    /// Milliseconds of the GPU's time that a frame spends on light probes, by what they took
+    /// before, at most, but for one face and light that must be made; infinite: unbounded.
+    double probeBudgetMs = std::numeric_limits<double>::infinity();
     /// Light probes capture again where bounced light may have changed by more than that share.
     double lightThreshold = 0.1;
     bool operator==(const RenderSettings&) const = default;

@@ -298,6 +298,31 @@ TEST_F(ProbeMotion, TheBudgetHoldsForTwoThousandFrames) {
     }
 }
 
+// What a face takes is measured as it is drawn: one a frame while nothing is known, then as many as
+// the milliseconds let through, and never less than one.
+TEST_F(ProbeMotion, MillisecondsAreMeasuredAsFacesAreDrawn) {
+    ProbeWorld world = yard(0.5f);
+    lighting::Probe& probe = world.probe("probe", {0, 1.5, 0}, {12, 6, 12}, 1.0);
+    probe.capture.resolution = 16;
+    probe.update = lighting::ProbeUpdate::Always;
+    const scene::Scene scene = world.make();
+    const auto renderer = rendererOf(scene);
+    renderer->setEnvironment("grey", testing::constantSky(0.4));
+    const scene::View view = testing::lookAt(scene, {3, 3, 5}, {0, 1, 0});
+    scene::RenderSettings settings = small(16);
+    settings.probeBudgetMs = 1e6;
+    EXPECT_EQ(frameOf(*renderer, view, settings).counters.probeFaces, 1u);
+    std::uint64_t most = 0;
+    for (int i = 0; i < 30; ++i) {
+        most = std::max(most, frameOf(*renderer, view, settings).counters.probeFaces);
+    }
+    EXPECT_EQ(most, 6u);
+    settings.probeBudgetMs = 0.0;
+    for (int i = 0; i < 12; ++i) {
+        EXPECT_EQ(frameOf(*renderer, view, settings).counters.probeFaces, 1u) << i;
+    }
+}
+
 std::size_t residentKilobytes() {
     std::ifstream file("/proc/self/statm");
     std::size_t total = 0, resident = 0;

@@ -3,6 +3,7 @@
 // Rounds of faces that something comes between: movement, changed light, a probe that moves or
 // goes.
 #include <limits>
+#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -156,6 +157,73 @@ TEST(ProbeRounds, OneFaceAFrameIsEnoughForNoneToStarve) {
         EXPECT_LE(std::max(longest[at], 2 * kLongest - published[at]), kLongest) << i;
         EXPECT_GE(rounds[at], rounds[0]) << i; // what shows more is served no less often
     }
+}
+
+// What a frame's probes take, by what the views say, is within the budget, or there is one face
+// alone; what a round that goes on has left of the budget is not enough for its next face.
+TEST(ProbeRounds, MillisecondsAreABudgetToo) {
+    constexpr int kProbes = 12;
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    World world{std::vector<lighting::Probe>()};
+    std::vector<double> faceMs, lightMs;
+    for (int i = 0; i < kProbes; ++i) {
+        world.probes().push_back(
+            probeAt(std::string("p").append(std::to_string(i)), {10.0 * i, 0, 0}, 9.0, 1.0));
+        world.input.draws.push_back(drawAt({10.0f * static_cast<float>(i), 0, 1}));
+        faceMs.push_back(0.2 + unit(random));
+        lightMs.push_back(0.2 + 2.0 * unit(random));
+    }
+    world.histories().resize(kProbes);
+    world.describe = [&](std::size_t i, ProbeView& view) {
+        view.faceMs.fill(faceMs[i]);
+        view.lightMs = lightMs[i];
+    };
+    world.input.faceBudget = 100;
+    int several = 0, cut = 0;
+    for (int frame = 0; frame < 600; ++frame) {
+        world.input.probeBudgetMs = 8.0 * unit(random);
+        const auto x = static_cast<float>(120.0 * unit(random));
+        world.moved = {{"crowd", {x, -1, -1}, {x + 30, 1, 1}, 1.0}};
+        const EffectPlan plan = world.frame();
+        double faces = 0.0, light = 0.0;
+        for (const ProbeFace& face : plan.probeFaces) {
+            faces += faceMs[face.probe];
+        }
+        for (const ProbeWork& work : plan.probeWork) {
+            light += lightMs[work.probe];
+        }
+        if (plan.probeFaces.size() > 1) {
+            EXPECT_LE(faces + light, world.input.probeBudgetMs + 1e-9) << frame;
+            ++several;
+        }
+        if (const std::size_t last = plan.probeFaces.empty() ? 0 : plan.probeFaces.back().probe;
+            world.histories()[last].drawnFor > 0) {
+            EXPECT_GT(faces + light + faceMs[last] + lightMs[last], world.input.probeBudgetMs)
+                << frame;
+            ++cut;
+        }
+    }
+    EXPECT_GT(several, 100);
+    EXPECT_GT(cut, 100);
+}
+
+TEST(ProbeRounds, AFaceOfUnknownCostIsDrawnAlone) {
+    World world = lobby();
+    world.input.probeBudgetMs = 100.0;
+    EXPECT_EQ(world.frame().probeFaces.size(), 1u);
+    world.describe = [](std::size_t, ProbeView& view) { view.faceMs.fill(1.0); };
+    world.input.probeBudgetMs = 3.5;
+    const EffectPlan second = world.frame();
+    EXPECT_EQ(second.probeFaces.size(), 3u);
+    world.input.probeBudgetMs = 0.0;
+    EXPECT_EQ(world.frame().probeFaces.size(), 1u); // one in any case
+    world.moved = {{"all", {-9, -9, -9}, {9, 9, 9}, 0.1}};
+    world.probes().push_back(probeAt("Attic", {20, 0, 0}, 10.0, 1.0));
+    world.histories().emplace_back();
+    world.input.draws.push_back(drawAt({20, 0, 2}));
+    EXPECT_EQ(captureText(world.frame(), "Attic"),
+              "skipped: waits, the frame's milliseconds are spent: 6 faces, it shows nothing yet");
 }
 
 TEST(ProbeRounds, LightThatIsNoNumberCountsAsChanged) {

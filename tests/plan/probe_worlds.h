@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -59,6 +60,7 @@ public:
     LightState light;
     std::vector<Moved> moved;
     double threshold = 0.1;
+    std::function<void(std::size_t, ProbeView&)> describe; ///< what else is known of a probe
     std::vector<ProbeHistory>& histories() { return histories_; }
     std::vector<lighting::Probe>& probes() { return probes_; }
 
@@ -68,6 +70,9 @@ public:
         for (std::size_t i = 0; i < probes_.size(); ++i) {
             input.probes.push_back(viewOf(probes_[i]));
             observe(histories_[i], input.probes.back(), index, light, threshold);
+            if (describe) {
+                describe(i, input.probes.back());
+            }
         }
         EffectPlan result = plan(input);
         const std::vector<ProbeDone> done = doneFor(result, probes_.size());
