@@ -2,8 +2,9 @@
 //
 // What it takes to make a captured cube ready to shade with, both terms, in passes: our tent mips
 // and irradiance, the driver's own mipmap call, and a GGX prefilter of 32 samples a texel as other
-// engines run it for each level. Wall time between two glFinish, all in turn; ratios are formed
-// repeat by repeat.
+// engines run it for each level; and, for a sky of which only the intensity or tint has changed,
+// every level anew as geometry + tint x sky of two chains that were kept. Wall time between two
+// glFinish, all in turn; ratios are formed repeat by repeat.
 //
 //   build/bench-probes [repeats]
 #include <algorithm>
@@ -89,6 +90,28 @@ void main() {
     oColor = vec4(sum / max(weights, 1e-6), 1.0);
 })";
 
+/// A level of two kept chains: what was captured, and the sky between it.
+const char* kTinted = R"(#version 330 core
+in vec2 vAt;
+uniform samplerCube uMap;
+uniform samplerCube uSky;
+uniform int uFace;
+uniform vec3 uTint;
+layout(location = 0) out vec4 oColor;
+
+vec3 directionOf(int face, vec2 p) {
+    if (face == 0) return vec3(1.0, -p.y, -p.x);
+    if (face == 1) return vec3(-1.0, -p.y, p.x);
+    if (face == 2) return vec3(p.x, 1.0, p.y);
+    if (face == 3) return vec3(p.x, -1.0, -p.y);
+    return face == 4 ? vec3(p.x, -p.y, 1.0) : vec3(-p.x, -p.y, -1.0);
+}
+
+void main() {
+    vec3 d = directionOf(uFace, vAt);
+    oColor = vec4(textureLod(uMap, d, 0.0).rgb + uTint * textureLod(uSky, d, 0.0).rgb, 1.0);
+})";
+
 double milliseconds(const std::function<void()>& work) {
     glFinish();
     const auto start = Clock::now();
@@ -148,6 +171,52 @@ private:
     int face_ = -1, alpha_ = -1;
 };
 
+/// All levels of a map from two others.
+class Tinted {
+public:
+    explicit Tinted(gl::Device& device)
+        : device_(device), screen_(device),
+          program_(std::move(*gl::Program::makeFromText(device, kVertex, kTinted, "tinted"))) {
+        glGenFramebuffers(1, &framebuffer_);
+        program_.use();
+        program_.setSampler("uMap", 0);
+        program_.setSampler("uSky", 1);
+        glUniform3f(program_.uniform("uTint"), 0.3f, 0.4f, 0.5f);
+        face_ = program_.uniform("uFace");
+    }
+    ~Tinted() { glDeleteFramebuffers(1, &framebuffer_); }
+    void run(const gl::Texture& geometry, const gl::Texture& sky, const gl::Texture& to) {
+        program_.use();
+        screen_.bind();
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+        for (int level = 0; level < to.levelCount(); ++level) {
+            sky.bind(1);
+            sky.showLevels(level, level);
+            geometry.bind(0);
+            geometry.showLevels(level, level);
+            const int side = std::max(to.width() >> level, 1);
+            glViewport(0, 0, side, side);
+            for (int face = 0; face < 6; ++face) {
+                glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0,
+                                       GL_TEXTURE_CUBE_MAP_POSITIVE_X + static_cast<GLenum>(face),
+                                       to.id(), level);
+                glUniform1i(face_, face);
+                gl::drawFullScreen(device_);
+            }
+        }
+        geometry.showLevels(0, geometry.levelCount() - 1);
+        sky.bind(0);
+        sky.showLevels(0, sky.levelCount() - 1);
+    }
+
+private:
+    gl::Device& device_;
+    gl::VertexArray screen_;
+    gl::Program program_;
+    unsigned framebuffer_ = 0;
+    int face_ = -1;
+};
+
 void fill(const gl::Texture& cube) {
     const lighting::Cubemap map =
         lighting::cubeFromAnalytic(lighting::ClearSkyEnvironment{}, cube.width());
@@ -172,9 +241,10 @@ void measure(gl::Device& device, gl::ProbeFilter& filter, gl::IrradianceAtlas& a
     fill(ours);
     fill(drivers);
     Ggx ggx(device, drivers, theirs);
+    Tinted tinted(device);
     const int tile = *atlas.add();
     glDisable(GL_DEPTH_TEST);
-    std::vector<double> refresh, mips, mipmap, prefilter, ratio, ofMipmap;
+    std::vector<double> refresh, mips, mipmap, prefilter, ratio, ofMipmap, tint;
     for (int i = -1; i < repeats; ++i) { // the first reading holds what the driver put off
         const double m = milliseconds([&] { filter.fillMips(ours, levels - 1); });
         const double both = milliseconds([&] { filter.fill(ours, levels - 1, atlas, tile); });
@@ -183,7 +253,9 @@ void measure(gl::Device& device, gl::ProbeFilter& filter, gl::IrradianceAtlas& a
             glGenerateMipmap(GL_TEXTURE_CUBE_MAP);
         });
         const double p = milliseconds([&] { ggx.run(); });
+        const double t = milliseconds([&] { tinted.run(ours, drivers, theirs); });
         if (i >= 0) {
+            tint.push_back(t);
             mips.push_back(m);
             refresh.push_back(both);
             mipmap.push_back(g);
@@ -192,8 +264,9 @@ void measure(gl::Device& device, gl::ProbeFilter& filter, gl::IrradianceAtlas& a
             ofMipmap.push_back(both / g);
         }
     }
-    std::printf("%4d   %7.3f (mips %7.3f)  %7.3f  %8.3f   %6.2f   %5.2f\n", width, median(refresh),
-                median(mips), median(mipmap), median(prefilter), median(ratio), median(ofMipmap));
+    std::printf("%4d   %7.3f (mips %7.3f)  %7.3f  %8.3f   %6.2f   %5.2f   %7.3f\n", width,
+                median(refresh), median(mips), median(mipmap), median(prefilter), median(ratio),
+                median(ofMipmap), median(tint));
 }
 
 } // namespace
@@ -214,7 +287,8 @@ int main(int argc, char** argv) {
     }
     glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
     std::printf("%s; medians of %d, ms\n", (*device)->capabilities().renderer.c_str(), repeats);
-    std::printf("face   refresh                 mipmap   ggx 32   ggx/refresh  refresh/mipmap\n");
+    std::printf(
+        "face   refresh                 mipmap   ggx 32   ggx/refresh  refresh/mipmap  tinted\n");
     for (const int width : {64, 128, 256}) {
         measure(**device, *filter, *atlas, width, repeats);
     }
