@@ -51,9 +51,11 @@ core::Result<std::unique_ptr<Device>> Device::create() {
                            {}};
     }
     std::unique_ptr<Device> device(new Device);
+    const std::string renderer = text(GL_RENDERER);
     device->capabilities_ = {epoxy_gl_version(),
-                             text(GL_RENDERER),
+                             renderer,
                              text(GL_VENDOR),
+                             renderer.starts_with("llvmpipe") || renderer.starts_with("softpipe"),
                              epoxy_gl_version() >= 43 || epoxy_has_gl_extension("GL_KHR_debug"),
                              integer(GL_MAX_TEXTURE_SIZE),
                              integer(GL_MAX_CUBE_MAP_TEXTURE_SIZE),

@@ -39,6 +39,7 @@ struct Capabilities {
     int version = 33; ///< major * 10 + minor
     std::string renderer;
     std::string vendor;
+    bool software = false; ///< draws on the processor: Mesa's llvmpipe or softpipe
     bool debugOutput = false;
     int maxTextureSize = 0;
     int maxCubeSize = 0;

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// GPU time of a stretch of commands. Move-only.
+// Time that the GPU takes for a stretch of commands. Neither copied nor moved.
 #pragma once
+
+#include <chrono>
 
 #include "gl/device.h"
 
 namespace lodestar::gl {
 
+/// On software rasterisers the time between two waits for all that was asked for: llvmpipe begins
+/// its own queries anew with each tile of a picture, and so tells of the last tile alone.
 class Timer {
 public:
     explicit Timer(Device& device);
@@ -23,7 +27,9 @@ public:
     [[nodiscard]] bool isReady() const;
 
 private:
-    unsigned id_ = 0;
+    using Clock = std::chrono::steady_clock;
+    unsigned id_ = 0; ///< 0: on a software rasteriser
+    Clock::time_point begun_{}, ended_{};
 };
 
 } // namespace lodestar::gl

@@ -84,11 +84,8 @@ gl::Defines definesFor(plan::Features features, const plan::EffectPlan& plan,
     defines.emplace_back("LODESTAR_PROBES", plan::has(features, Feature::SecondProbe) ? "2"
                                             : plan::has(features, Feature::Probe)     ? "1"
                                                                                       : "0");
-    defines.emplace_back("LODESTAR_SPECULAR",
-                         std::to_string(specularMacro(settings.specular.kind)));
-    defines.emplace_back("LODESTAR_DIFFUSE", std::to_string(diffuseMacro(settings.diffuse.kind)));
-    defines.emplace_back("LODESTAR_BIAS_VERTEX",
-                         settings.specular.kind == EstimatorKind::BiasVertex ? "1" : "0");
+    const gl::Defines chosen = estimatorDefines(settings.specular, settings.diffuse);
+    defines.insert(defines.end(), chosen.begin(), chosen.end());
     return defines;
 }
 
@@ -124,6 +121,13 @@ gl::Defines compositionDefines(const plan::EffectPlan& plan) {
 }
 
 } // namespace
+
+gl::Defines estimatorDefines(const lighting::Estimator& specular,
+                             const lighting::Estimator& diffuse) {
+    return {{"LODESTAR_SPECULAR", std::to_string(specularMacro(specular.kind))},
+            {"LODESTAR_DIFFUSE", std::to_string(diffuseMacro(diffuse.kind))},
+            {"LODESTAR_BIAS_VERTEX", specular.kind == EstimatorKind::BiasVertex ? "1" : "0"}};
+}
 
 core::Result<void> Programs::add(Variants& variants, const char* vertexFile,
                                  const char* fragmentFile, const gl::Defines& defines) {

@@ -26,6 +26,10 @@ struct MeshProgram {
     int firstInstance = -1;
 };
 
+/// The macros of shading text by which the two terms are estimated.
+[[nodiscard]] gl::Defines estimatorDefines(const lighting::Estimator& specular,
+                                           const lighting::Estimator& diffuse);
+
 class Programs {
 public:
     explicit Programs(gl::Device& device) : device_(&device) {}

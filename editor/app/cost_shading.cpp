@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "app/cost_shading.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include <epoxy/gl.h>
+
+#include "lighting/lookup.h"
+#include "scene/gpu_scene.h"
+#include "scene/programs.h"
+
+namespace lodestar::app {
+namespace {
+
+constexpr int kTileSide = 1024;
+/// Quick lookups are repeated for so long: the processor has other things to do.
+constexpr double kEnoughMs = 100.0;
+
+/// A sky whose map is as any other to the shader.
+std::vector<lighting::DayLight> plainSky() {
+    lighting::DayLight sky;
+    sky.name = "sky";
+    sky.keys = {{12.0,
+                 {{{90, {0.1, 0.2, 0.5}, 0}, {0, {1, 0.9, 0.8}, 0}, {-90, {0.1, 0.1, 0.1}, 0}}},
+                 glm::dvec3(1.0),
+                 {}}};
+    core::Tally none;
+    return {*lighting::repaired(std::move(sky), none)};
+}
+
+scene::RenderSettings settingsOf(const CostedLookup& lookup) {
+    scene::RenderSettings settings;
+    (lookup.term == lighting::Term::Glossy ? settings.specular : settings.diffuse) =
+        lookup.estimator;
+    return settings;
+}
+
+} // namespace
+
+CostShading::CostShading(gl::Device& device)
+    : device_(device), vertices_(device), timer_(device), frameBlock_(device), lightBlock_(device) {
+}
+
+core::Result<std::unique_ptr<CostShading>> CostShading::make(gl::Device& device) {
+    std::unique_ptr<CostShading> shading(new CostShading(device));
+    auto target = gl::Framebuffer::make(device, kTileSide, kTileSide);
+    if (!target) {
+        return target.error();
+    }
+    shading->target_ = std::move(*target);
+    return shading;
+}
+
+gl::Defines CostShading::definesFor(const CostedLookup& lookup) const {
+    const bool map = lookup.layout != nullptr;
+    const bool glossy = lookup.term == lighting::Term::Glossy;
+    gl::Defines defines = {{"LODESTAR_COST_LOOKUP", glossy ? map ? "3" : "1"
+                                                    : map  ? "4"
+                                                           : "2"},
+                           {"LODESTAR_RSRM_LIGHTS", map ? "1" : "0"},
+                           {"LODESTAR_RSRM_LAYOUT", map && lights_.published() ? "1" : "0"}};
+    const scene::RenderSettings settings = settingsOf(lookup);
+    const gl::Defines chosen = scene::estimatorDefines(settings.specular, settings.diffuse);
+    defines.insert(defines.end(), chosen.begin(), chosen.end());
+    return defines;
+}
+
+core::Result<const gl::Program*> CostShading::program(const gl::Defines& defines) {
+    const auto found = programs_.find(defines);
+    if (found != programs_.end()) {
+        return &found->second;
+    }
+    auto made = gl::Program::make(device_, "host/present.vert", "host/cost_tile.frag", defines);
+    if (!made) {
+        return made.error();
+    }
+    made->setBlock("LodestarFrame", scene::kFrameBinding);
+    made->setBlock("LodestarRsrmLights", scene::kRsrmBinding);
+    made->setSampler("uEnvironment", scene::kEnvironmentUnit);
+    made->setSampler("uIrradiance", scene::kIrradianceUnit);
+    made->setSampler("uRsrmMaps", scene::kRsrmMapUnit);
+    made->setSampler("uRsrmLamberts", scene::kRsrmLambertUnit);
+    made->setSampler("uRsrmGradients", scene::kRsrmGradientUnit);
+    return &programs_.emplace(defines, std::move(*made)).first->second;
+}
+
+core::Result<void> CostShading::prepareMap(const CostedLookup& lookup) {
+    lights_ = scene::GpuLights(plainSky(), *lookup.layout, kernels_);
+    (void)lights_.describe(12.0);
+    plan::EffectPlan plan;
+    plan.rsrmLights.push_back({0, true, -1, false, true});
+    if (auto prepared = lights_.prepare(device_, plan); !prepared) {
+        return prepared;
+    }
+    scene::blocks::LodestarRsrmLights block{};
+    lights_.describe(plan, block);
+    lightBlock_.set(block);
+    return {};
+}
+
+core::Result<std::uint64_t> CostShading::prepare(const CostedLookup& lookup,
+                                                 const lighting::Cubemap& base) {
+    lookup_ = lookup;
+    environment_ = {};
+    lights_ = {};
+    const std::uint64_t before = device_.counters().textureBytes;
+    if (lookup.layout != nullptr) {
+        if (auto prepared = prepareMap(lookup); !prepared) {
+            return prepared.error();
+        }
+    } else {
+        environment_ = scene::GpuEnvironment("measured", base);
+        if (auto prepared = environment_.prepare(device_, lighting::partsFor(lookup.estimator));
+            !prepared) {
+            return prepared.error();
+        }
+        scene::blocks::LodestarFrame block{};
+        environment_.describe(settingsOf(lookup), block);
+        frameBlock_.set(block);
+    }
+    return device_.counters().textureBytes - before;
+}
+
+core::Result<double> CostShading::timed(const gl::Defines& defines, double exponent, int repeats) {
+    const auto made = program(defines);
+    if (!made) {
+        return made.error();
+    }
+    target_.begin();
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+    vertices_.bind();
+    frameBlock_.bind(scene::kFrameBinding);
+    lightBlock_.bind(scene::kRsrmBinding);
+    environment_.bind(settingsOf(lookup_));
+    lights_.bind();
+    (*made)->use();
+    glUniform2f((*made)->uniform("uTile"), static_cast<float>(kTileSide),
+                static_cast<float>(exponent));
+    double least = std::numeric_limits<double>::infinity();
+    double spent = 0.0;
+    for (int i = -1; i < repeats || (spent < kEnoughMs && i < 8 * repeats); ++i) {
+        timer_.begin();
+        gl::drawFullScreen(device_);
+        timer_.end();
+        const double ms = timer_.milliseconds();
+        least = i < 0 ? least : std::min(least, ms); // the first compiles
+        spent += ms;
+    }
+    return least / (kTileSide * kTileSide * 1e-6);
+}
+
+core::Result<double> CostShading::milliseconds(double exponent, int repeats) {
+    return timed(definesFor(lookup_), exponent, repeats);
+}
+
+core::Result<double> CostShading::emptyMilliseconds(int repeats) {
+    gl::Defines defines = definesFor(lookup_);
+    defines.front().second = "0";
+    return timed(defines, 1.0, repeats);
+}
+
+} // namespace lodestar::app

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+//
+// How long lookups take on the GPU that is there: a tile of balls is shaded by each, in turn.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "app/cost_estimates.h"
+#include "core/result.h"
+#include "gl/buffer.h"
+#include "gl/framebuffer.h"
+#include "gl/program.h"
+#include "gl/timer.h"
+#include "scene/gpu_environment.h"
+#include "scene/gpu_lights.h"
+#include "scene/renderer.h"
+#include "scene/uniform_block.h"
+
+namespace lodestar::app {
+
+class CostShading {
+public:
+    /// @errors NoOpenGl if the driver has no memory for the tile
+    [[nodiscard]] static core::Result<std::unique_ptr<CostShading>> make(gl::Device& device);
+
+    /// Uploads what a lookup reads, in place of what was there. @return bytes of its textures
+    /// @errors NoOpenGl
+    [[nodiscard]] core::Result<std::uint64_t> prepare(const CostedLookup& lookup,
+                                                      const lighting::Cubemap& base);
+    /// Milliseconds a megapixel of a tile shaded by what was prepared last: the least of a few
+    /// repeats. @param exponent Blinn-Phong  @errors Internal (a shader that the driver refuses)
+    [[nodiscard]] core::Result<double> milliseconds(double exponent, int repeats);
+    /// The same of a tile without a lookup.
+    [[nodiscard]] core::Result<double> emptyMilliseconds(int repeats);
+
+private:
+    explicit CostShading(gl::Device& device);
+    [[nodiscard]] core::Result<const gl::Program*> program(const gl::Defines& defines);
+    [[nodiscard]] gl::Defines definesFor(const CostedLookup& lookup) const;
+    [[nodiscard]] core::Result<double> timed(const gl::Defines& defines, double exponent,
+                                             int repeats);
+    [[nodiscard]] core::Result<void> prepareMap(const CostedLookup& lookup);
+
+    gl::Device& device_;
+    gl::Framebuffer target_;
+    gl::VertexArray vertices_;
+    gl::Timer timer_;
+    std::map<gl::Defines, gl::Program> programs_;
+    scene::UniformBlock<scene::blocks::LodestarFrame> frameBlock_;
+    scene::UniformBlock<scene::blocks::LodestarRsrmLights> lightBlock_;
+    scene::GpuEnvironment environment_;
+    std::shared_ptr<lighting::RsrmKernels> kernels_ = std::make_shared<lighting::RsrmKernels>();
+    scene::GpuLights lights_;
+    CostedLookup lookup_;
+};
+
+} // namespace lodestar::app

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+//
+// A tile of balls on which one lookup alone is shaded, to be timed.
+//   LODESTAR_COST_LOOKUP  0 nothing, 1 glossy, 2 diffuse, 3 glossy of a map, 4 diffuse of a map
+#include "host/blocks.glsl"
+#include "lodestar/sh9.glsl"
+#include "lodestar/environment.glsl"
+#include "host/hooks.glsl"
+#if LODESTAR_RSRM_LIGHTS
+#include "lodestar/rsrm.glsl"
+#include "host/rsrm_hooks.glsl"
+#endif
+
+uniform vec2 uTile; // pixels a side; Blinn-Phong exponent
+
+layout(location = 0) out vec4 oRadiance;
+
+LodestarSurface surfaceHere() {
+    LodestarSurface surface;
+    vec2 at = fract(gl_FragCoord.xy * (4.0 / uTile.x)) * 2.0 - 1.0;
+    vec2 on = 0.9 * at * inversesqrt(max(dot(at, at), 1.0));
+    surface.normal = vec3(on, sqrt(1.0 - dot(on, on)));
+    surface.view = normalize(vec3(-0.4 * (gl_FragCoord.xy / uTile.x - 0.5), 1.0));
+    surface.diffuse = vec3(0.5);
+    surface.f0 = vec3(0.5);
+    surface.exponent = uTile.y;
+    surface.occlusion = 1.0;
+    return surface;
+}
+
+void main() {
+    LodestarSurface surface = surfaceHere();
+    vec3 radiance = surface.normal + surface.view;
+#if LODESTAR_COST_LOOKUP == 1
+    LodestarCube cube;
+    cube.slot = 0;
+    cube.width = environmentCube.x;
+    cube.maxLevel = environmentCube.y;
+    cube.leastLevel = environmentCube.z;
+    vec3 r = reflect(-surface.view, surface.normal);
+    radiance = lodestar_specular(cube, surface, dFdx(r), dFdy(r));
+#elif LODESTAR_COST_LOOKUP == 2
+    radiance = lodestar_host_irradiance(0, surface.normal);
+#elif LODESTAR_COST_LOOKUP == 3
+    LodestarLookup lookup = LODESTAR_RSRM_LAYOUT == LODESTAR_RSRM_PUBLISHED
+                                ? lodestar_lookupAsGiven(surface.normal, surface.view, surface.exponent)
+                                : lodestar_lookup(surface.normal, surface.view, surface.exponent);
+    LodestarRsrm map = rsrmLight(0);
+    radiance = lodestar_rsrm(map, lookup.direction, lodestar_rsrmRow(map, lookup.exponent));
+#elif LODESTAR_COST_LOOKUP == 4
+    radiance = lodestar_rsrmLambert(rsrmLight(0), surface.normal);
+#endif
+    oRadiance = vec4(radiance, 1.0);
+}
