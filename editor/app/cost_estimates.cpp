@@ -93,6 +93,13 @@ std::vector<CostedLookup> costedLookups() {
     for (const Term term : {Term::Glossy, Term::Diffuse}) {
         for (const std::string& name : lighting::estimatorNames(term)) {
             // Without a pixel's footprint `mip-floor` is `mip`; the reference is the truth itself.
+            if (name == "taps:N") {
+                for (const int taps : {4, 16, 64}) {
+                    const lighting::Estimator spiral{lighting::EstimatorKind::Taps, 0.0f, taps};
+                    lookups.push_back({lighting::estimatorName(spiral), term, spiral, nullptr});
+                }
+                continue;
+            }
             if (name.find("LAMBDA") != std::string::npos || name == "mip-floor" ||
                 name == "reference") {
                 continue;

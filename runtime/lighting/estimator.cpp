@@ -11,7 +11,7 @@ namespace {
 
 struct Row {
     EstimatorKind kind;
-    std::string_view name; ///< `bias` rows: the form, LAMBDA standing for the level
+    std::string_view name; ///< with LAMBDA or N where a number stands
     bool glossy;
     bool diffuse;
 };
@@ -22,6 +22,9 @@ constexpr std::array kRows{
     Row{EstimatorKind::Bias, "bias:LAMBDA", true, true},
     Row{EstimatorKind::BiasVertex, "bias:LAMBDA:vertex", true, false},
     Row{EstimatorKind::Tent, "tent", true, false},
+    Row{EstimatorKind::Ring3, "ring:3", true, false},
+    Row{EstimatorKind::Ring7, "ring:7", true, false},
+    Row{EstimatorKind::Taps, "taps:N", true, false},
     Row{EstimatorKind::LowestMip, "lowest-mip", false, true},
     Row{EstimatorKind::Sh9, "sh9", false, true},
     Row{EstimatorKind::Irradiance, "irradiance", false, true},
@@ -29,6 +32,7 @@ constexpr std::array kRows{
 };
 
 constexpr std::string_view kBiasPrefix = "bias:";
+constexpr std::string_view kTapsPrefix = "taps:";
 constexpr std::string_view kVertexSuffix = ":vertex";
 constexpr float kMaxBias = 32.0f; ///< deeper than any chain; larger values are slips of the pen
 
@@ -77,11 +81,33 @@ core::Result<Estimator> parseBias(std::string_view name, Term term) {
     return estimator;
 }
 
+core::Result<Estimator> parseTaps(std::string_view name, Term term) {
+    if (!serves(EstimatorKind::Taps, term)) {
+        return unknown(name, term);
+    }
+    const std::string_view number = name.substr(kTapsPrefix.size());
+    Estimator estimator{EstimatorKind::Taps};
+    const char* end = number.data() + number.size();
+    const auto [stop, code] = std::from_chars(number.data(), end, estimator.taps);
+    if (code != std::errc() || stop != end || estimator.taps < kLeastTaps ||
+        estimator.taps > kMostTaps) {
+        return core::Error{core::ErrorCode::Usage,
+                           "\"" + std::string(name) +
+                               "\" needs a number of taps from 4 to 1024 after \"taps:\"",
+                           {},
+                           {}};
+    }
+    return estimator;
+}
+
 } // namespace
 
 core::Result<Estimator> parseEstimator(std::string_view name, Term term) {
     if (name.starts_with(kBiasPrefix)) {
         return parseBias(name, term);
+    }
+    if (name.starts_with(kTapsPrefix)) {
+        return parseTaps(name, term);
     }
     for (const Row& row : kRows) {
         if (row.name == name && (term == Term::Glossy ? row.glossy : row.diffuse)) {
@@ -92,6 +118,9 @@ core::Result<Estimator> parseEstimator(std::string_view name, Term term) {
 }
 
 std::string estimatorName(const Estimator& estimator) {
+    if (estimator.kind == EstimatorKind::Taps) {
+        return std::string(kTapsPrefix) + std::to_string(estimator.taps);
+    }
     if (estimator.kind != EstimatorKind::Bias && estimator.kind != EstimatorKind::BiasVertex) {
         return std::string(rowOf(estimator.kind).name);
     }
@@ -114,6 +143,11 @@ std::vector<std::string> estimatorNames(Term term) {
         }
     }
     return names;
+}
+
+bool readsTentMips(EstimatorKind kind) {
+    return kind == EstimatorKind::Tent || kind == EstimatorKind::Ring3 ||
+           kind == EstimatorKind::Ring7 || kind == EstimatorKind::Taps;
 }
 
 bool serves(EstimatorKind kind, Term term) {

@@ -18,6 +18,9 @@ enum class EstimatorKind {
     Bias,       ///< `bias:LAMBDA`: Ashikhmin and Ghosh 2002, a least level per object
     BiasVertex, ///< `bias:LAMBDA:vertex`: the same, per vertex, sharper at grazing angles
     Tent,       ///< `tent`: one fetch from tent mips
+    Ring3,      ///< `ring:3`: three taps about the lobe's axis, from tent mips
+    Ring7,      ///< `ring:7`: six taps about the lobe's axis and the axis itself
+    Taps,       ///< `taps:N`: N taps on a spiral, from tent mips
     LowestMip,  ///< `lowest-mip`: Lambert from the coarsest plain mip, as published
     Sh9,        ///< `sh9`: nine spherical-harmonic coefficients
     Irradiance, ///< `irradiance`: a 16x16 irradiance cube
@@ -26,10 +29,16 @@ enum class EstimatorKind {
 
 enum class Term { Glossy, Diffuse };
 
+/// How many taps a spiral may have: with fewer than four its middle lies beside the lobe's axis,
+/// and beyond the most a frame would take seconds.
+inline constexpr int kLeastTaps = 4;
+inline constexpr int kMostTaps = 1024;
+
 /// An estimator and its parameter.
 struct Estimator {
     EstimatorKind kind = EstimatorKind::Tent;
     float leastLevel = 0.0f; ///< bias only, mip level >= 0
+    int taps = 16;           ///< taps only, [kLeastTaps, kMostTaps]
 
     bool operator==(const Estimator&) const = default;
 };
@@ -43,8 +52,11 @@ inline constexpr Estimator kDefaultDiffuse{EstimatorKind::Irradiance, 0.0f};
 /// Its name, as parseEstimator takes it.
 [[nodiscard]] std::string estimatorName(const Estimator& estimator);
 
-/// The names a term has, for help and messages; `bias:LAMBDA` stands as that.
+/// The names a term has, for help and messages; `bias:LAMBDA` and `taps:N` stand as that.
 [[nodiscard]] std::vector<std::string> estimatorNames(Term term);
+
+/// Whether it reads tent mips about the lookup of a Blinn-Phong lobe: `tent`, rings and taps.
+[[nodiscard]] bool readsTentMips(EstimatorKind kind);
 
 /// Whether the term can be estimated so: `bias` and `reference` for both, the others for one.
 [[nodiscard]] bool serves(EstimatorKind kind, Term term);

@@ -10,6 +10,7 @@
 #include "lodestar/cube.glsl"
 #include "lodestar/lobes.glsl"
 #include "lodestar/sh9.glsl"
+#include "lodestar/taps.glsl"
 
 namespace lodestar::shader {
 
@@ -40,9 +41,9 @@ public:
     [[nodiscard]] int fetches() const {
         return fetches_;
     }
-    /// The last level fetched; negative if the cube was not.
+    /// The level fetched; negative if the cube was not, or more than once.
     [[nodiscard]] double level() const {
-        return level_;
+        return fetches_ == 1 ? level_ : -1.0;
     }
 
 private:
@@ -64,7 +65,7 @@ namespace {
 constexpr float kNoFootprint = -std::numeric_limits<float>::infinity();
 
 const Cubemap& mipsFor(const PreparedEnvironment& environment, EstimatorKind kind) {
-    return kind == EstimatorKind::Tent ? environment.tentMips : environment.boxMips;
+    return readsTentMips(kind) ? environment.tentMips : environment.boxMips;
 }
 
 glm::dvec3 referenceRadiance(const PreparedEnvironment& environment, const LookupRequest& request) {
@@ -92,6 +93,21 @@ LookupAnswer lookupSh9(const PreparedEnvironment& environment, const glm::vec3& 
             -1.0, 0};
 }
 
+/// A Phong lobe about a direction from tent mips.
+glm::vec3 fetchTents(shader::CpuHost& host, const shader::CpuHost::LodestarCube& cube,
+                     const Estimator& estimator, const glm::vec3& direction, float exponent) {
+    switch (estimator.kind) {
+    case EstimatorKind::Ring3:
+        return host.lodestar_specularRing(cube, direction, exponent, kNoFootprint, 3);
+    case EstimatorKind::Ring7:
+        return host.lodestar_specularRing(cube, direction, exponent, kNoFootprint, 7);
+    case EstimatorKind::Taps:
+        return host.lodestar_specularTaps(cube, direction, exponent, kNoFootprint, estimator.taps);
+    default:
+        return host.lodestar_specularTent(cube, direction, exponent, kNoFootprint);
+    }
+}
+
 /// The estimators that fetch, by the shading text.
 glm::vec3 fetch(shader::CpuHost& host, const shader::CpuHost::LodestarCube& cube,
                 const LookupRequest& request, const glm::vec3& direction) {
@@ -104,13 +120,15 @@ glm::vec3 fetch(shader::CpuHost& host, const shader::CpuHost::LodestarCube& cube
     case EstimatorKind::Bias:
     case EstimatorKind::BiasVertex: // seen along the normal the vertex's level is the object's
         return host.lodestar_specularBias(cube, direction, kNoFootprint);
-    case EstimatorKind::Tent: {
+    case EstimatorKind::Tent:
+    case EstimatorKind::Ring3:
+    case EstimatorKind::Ring7:
+    case EstimatorKind::Taps: {
         if (request.lobe == Lobe::Phong) {
-            return host.lodestar_specularTent(cube, direction, exponent, kNoFootprint);
+            return fetchTents(host, cube, request.estimator, direction, exponent);
         }
         const auto converted = host.lodestar_lookup(direction, direction, exponent);
-        return host.lodestar_specularTent(cube, converted.direction, converted.exponent,
-                                          kNoFootprint);
+        return fetchTents(host, cube, request.estimator, converted.direction, converted.exponent);
     }
     case EstimatorKind::LowestMip:
         return glm::vec3(host.lodestar_host_cube(cube.slot, direction, cube.maxLevel));
@@ -134,6 +152,9 @@ PreparedParts partsFor(const Estimator& estimator) {
         parts.boxMips = true;
         break;
     case EstimatorKind::Tent:
+    case EstimatorKind::Ring3:
+    case EstimatorKind::Ring7:
+    case EstimatorKind::Taps:
         parts.tentMips = true;
         break;
     case EstimatorKind::Sh9:

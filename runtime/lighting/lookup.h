@@ -23,7 +23,7 @@ struct LookupRequest {
 
 struct LookupAnswer {
     glm::dvec3 radiance{0.0};
-    double level = -1.0; ///< the mip level fetched; negative where the estimator has none
+    double level = -1.0; ///< the mip level fetched; negative where there is none, or several
     int fetches = 0;     ///< texture fetches a shader would make; all texels for `reference`
 };
 

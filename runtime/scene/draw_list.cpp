@@ -69,9 +69,9 @@ void setTerms(plan::DrawView& draw, const io::GltfMaterial& material,
             (material.metallic < 1.0f || textured) && !isBlack(glm::vec3(material.baseColor));
         draw.glossy = true; // Fresnel's rise at grazing angles, whatever F0 is
     }
-    // Below an exponent of 1 the tent estimator's glossy lobe blends into Lambert's.
+    // Below an exponent of 1 the glossy lobe by tent mips blends into Lambert's.
     draw.diffuse =
-        draw.diffuse || (draw.glossy && settings.specular.kind == lighting::EstimatorKind::Tent &&
+        draw.diffuse || (draw.glossy && lighting::readsTentMips(settings.specular.kind) &&
                          leastExponent(material, settings) < 1.0f);
 }
 

@@ -61,7 +61,7 @@ core::Result<void> GpuEnvironment::prepare(gl::Device& device,
 
 /// The chain that the glossy estimator reads; for the backdrop any chain will do.
 const gl::Texture& GpuEnvironment::glossyCube(const RenderSettings& settings) const {
-    const bool box = settings.specular.kind != EstimatorKind::Tent;
+    const bool box = !lighting::readsTentMips(settings.specular.kind);
     return (box && boxMips_) || !tentMips_ ? boxMips_ : tentMips_;
 }
 

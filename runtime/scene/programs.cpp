@@ -21,6 +21,12 @@ int specularMacro(EstimatorKind kind) {
     case EstimatorKind::Bias:
     case EstimatorKind::BiasVertex:
         return 2;
+    case EstimatorKind::Ring3:
+        return 4;
+    case EstimatorKind::Ring7:
+        return 5;
+    case EstimatorKind::Taps:
+        return 6;
     default:
         return 3;
     }
@@ -124,9 +130,14 @@ gl::Defines compositionDefines(const plan::EffectPlan& plan) {
 
 gl::Defines estimatorDefines(const lighting::Estimator& specular,
                              const lighting::Estimator& diffuse) {
-    return {{"LODESTAR_SPECULAR", std::to_string(specularMacro(specular.kind))},
-            {"LODESTAR_DIFFUSE", std::to_string(diffuseMacro(diffuse.kind))},
-            {"LODESTAR_BIAS_VERTEX", specular.kind == EstimatorKind::BiasVertex ? "1" : "0"}};
+    gl::Defines defines = {
+        {"LODESTAR_SPECULAR", std::to_string(specularMacro(specular.kind))},
+        {"LODESTAR_DIFFUSE", std::to_string(diffuseMacro(diffuse.kind))},
+        {"LODESTAR_BIAS_VERTEX", specular.kind == EstimatorKind::BiasVertex ? "1" : "0"}};
+    if (specular.kind == EstimatorKind::Taps) {
+        defines.emplace_back("LODESTAR_TAPS", std::to_string(specular.taps));
+    }
+    return defines;
 }
 
 core::Result<void> Programs::add(Variants& variants, const char* vertexFile,

@@ -8,6 +8,7 @@
 //
 // Feature macros (defaults in shaders/README.md):
 //   LODESTAR_SPECULAR  which estimator the glossy term uses, one of LODESTAR_SPECULAR_*
+//   LODESTAR_TAPS      LODESTAR_SPECULAR_TAPS only: how many taps, 4 to 1024
 //
 // A C++ host includes this file inside its class, after defining LODESTAR_HOST_CLASS, and its
 // member functions are the hooks: no global state, and the whole evaluation runs on the CPU.
@@ -18,6 +19,7 @@
 #include "cube.glsl"
 #include "dual.glsl"
 #include "lobes.glsl"
+#include "taps.glsl"
 #define LODESTAR_HOST_BEGIN LODESTAR_BEGIN
 #define LODESTAR_HOST_END LODESTAR_END
 #endif
@@ -32,6 +34,12 @@
 #define LODESTAR_SPECULAR_MIP_FLOOR 1
 #define LODESTAR_SPECULAR_BIAS 2
 #define LODESTAR_SPECULAR_TENT 3
+#define LODESTAR_SPECULAR_RING3 4
+#define LODESTAR_SPECULAR_RING7 5
+#define LODESTAR_SPECULAR_TAPS 6
+#endif
+#ifndef LODESTAR_TAPS
+#define LODESTAR_TAPS 16
 #endif
 #ifndef LODESTAR_SPECULAR
 #define LODESTAR_SPECULAR LODESTAR_SPECULAR_TENT
@@ -123,6 +131,55 @@ LODESTAR_FN vec3 lodestar_specularTent(LodestarCube cube, vec3 direction, Real e
     return vec3(lodestar_host_cube(cube.slot, direction, level));
 }
 
+/// One tap of a Phong lobe from tent mips.
+/// @param tap direction, unit, and the exponent of its own lobe
+LODESTAR_FN vec3 lodestar_specularTap(LodestarCube cube, vec4 tap, Real footprint) {
+    return lodestar_specularTent(cube, vec3(tap), tap.w, footprint);
+}
+
+/// A ring of taps on tent mips for a Phong lobe about a direction.
+/// @param direction unit  @param count 3, or 7: six about the direction and the direction itself
+LODESTAR_FN vec3 lodestar_specularRing(LodestarCube cube, vec3 direction, Real exponent, Real footprint,
+                                       int count) {
+    LodestarTaps taps = lodestar_ring(count);
+    Real s = lodestar_repairExponent(exponent);
+    vec3 tangent = lodestar_tangent(direction);
+    int around = count == 7 ? 6 : 3;
+    vec2 angle = vec2(count == 7 ? 0.5f : -0.5f, LODESTAR_LITERAL(0.86602540378443865));
+    vec2 turn = vec2(1.0f, 0.0f);
+    vec3 sum = vec3(0.0f);
+    for (int i = 0; i < around; ++i) {
+        sum += lodestar_specularTap(cube, lodestar_lobeTap(direction, tangent, turn, s, -1.0f, taps), footprint);
+        turn = lodestar_turned(turn, angle);
+    }
+    sum *= 1.0f / Real(around);
+    if (count == 7) {
+        vec3 centre =
+            lodestar_specularTap(cube, lodestar_lobeTap(direction, tangent, turn, s, 0.0f, taps), footprint);
+        sum = mix(sum, centre, LODESTAR_RING_CENTRE);
+    }
+    return sum;
+}
+
+/// A spiral of taps on tent mips for a Phong lobe about a direction: importance sampling, each sample
+/// filtered over its share.
+/// @param direction unit  @param count >= 4
+LODESTAR_FN vec3 lodestar_specularTaps(LodestarCube cube, vec3 direction, Real exponent, Real footprint,
+                                       int count) {
+    LodestarTaps taps = lodestar_spiral(Real(count));
+    Real s = lodestar_repairExponent(exponent);
+    vec3 tangent = lodestar_tangent(direction);
+    vec2 goldenAngle = vec2(LODESTAR_LITERAL(-0.73736887807831970), LODESTAR_LITERAL(0.67549029426152380));
+    vec2 turn = vec2(1.0f, 0.0f);
+    vec3 sum = vec3(0.0f);
+    for (int i = 0; i < count; ++i) {
+        Real logShare = log2((Real(i) + 0.5f) / Real(count));
+        sum += lodestar_specularTap(cube, lodestar_lobeTap(direction, tangent, turn, s, logShare, taps), footprint);
+        turn = lodestar_turned(turn, goldenAngle);
+    }
+    return sum * (1.0f / Real(count));
+}
+
 /// The glossy term's radiance by the estimator LODESTAR_SPECULAR, before Fresnel.
 /// @param reflectionDx, reflectionDy screen derivatives of the reflection vector (0 on the CPU)
 LODESTAR_FN vec3 lodestar_specular(LodestarCube cube, LodestarSurface surface, vec3 reflectionDx,
@@ -138,7 +195,15 @@ LODESTAR_FN vec3 lodestar_specular(LodestarCube cube, LodestarSurface surface, v
     return lodestar_specularBias(cube, r, footprint);
 #else
     LodestarLookup lookup = lodestar_lookup(surface.normal, surface.view, surface.exponent);
+#if LODESTAR_SPECULAR == LODESTAR_SPECULAR_RING3
+    return lodestar_specularRing(cube, lookup.direction, lookup.exponent, footprint, 3);
+#elif LODESTAR_SPECULAR == LODESTAR_SPECULAR_RING7
+    return lodestar_specularRing(cube, lookup.direction, lookup.exponent, footprint, 7);
+#elif LODESTAR_SPECULAR == LODESTAR_SPECULAR_TAPS
+    return lodestar_specularTaps(cube, lookup.direction, lookup.exponent, footprint, LODESTAR_TAPS);
+#else
     return lodestar_specularTent(cube, lookup.direction, lookup.exponent, footprint);
+#endif
 #endif
 #endif
 }
@@ -149,7 +214,7 @@ LODESTAR_FN vec3 lodestar_environment(LodestarCube cube, LodestarSurface surface
                                       vec3 reflectionDy) {
     vec3 glossy = lodestar_specular(cube, surface, reflectionDx, reflectionDy);
     vec3 lambert = lodestar_host_irradiance(cube.slot, surface.normal);
-#if LODESTAR_SPECULAR == LODESTAR_SPECULAR_TENT
+#if LODESTAR_SPECULAR >= LODESTAR_SPECULAR_TENT
     // At exponent 0 the lobe is Lambert's, whose light is at hand already and better than any mip's.
     glossy = mix(glossy, lambert,
                  max(1.0f - lodestar_repairExponent(surface.exponent), Real(0.0f)));

@@ -48,7 +48,10 @@ TEST_F(Furnace, EveryEstimatorAndExponentShowsOne) {
                                                               {"mip", "sh9"},
                                                               {"mip-floor", "lowest-mip"},
                                                               {"bias:3.5", "bias:5"},
-                                                              {"bias:2:vertex", "irradiance"}};
+                                                              {"bias:2:vertex", "irradiance"},
+                                                              {"ring:3", "irradiance"},
+                                                              {"ring:7", "sh9"},
+                                                              {"taps:16", "irradiance"}};
     for (const auto& [specular, diffuse] : estimators) {
         settings.specular = *lighting::parseEstimator(specular, lighting::Term::Glossy);
         settings.diffuse = *lighting::parseEstimator(diffuse, lighting::Term::Diffuse);

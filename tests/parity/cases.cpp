@@ -388,6 +388,33 @@ std::vector<GlslCase> surfaceCases() {
     return cases;
 }
 
+std::vector<GlslCase> tapCases() {
+    std::vector<GlslCase> cases;
+    Draw draw(18u);
+    for (std::size_t i = 0; i < kDrawn; ++i) {
+        GlslCase inputs{};
+        const glm::vec3 d = draw.unit();
+        const float turn = draw.uniform(0.0f, 6.2831853f);
+        const float other = draw.uniform(0.0f, 6.2831853f);
+        inputs[0] = glm::vec4(draw.logarithmic(1e-8f, 60.0f), i % 2 == 0 ? 3.0f : 7.0f,
+                              std::floor(draw.logarithmic(4.0f, 1024.0f)), 0.0f);
+        inputs[1] = glm::vec4(d, i < kValidExponents.size() ? kValidExponents[i] : draw.exponent());
+        inputs[2] = glm::vec4(std::cos(turn), std::sin(turn),
+                              i % 8 == 0 ? 0.0f : -draw.logarithmic(1e-3f, 11.0f), 0.0f);
+        inputs[3] = glm::vec4(draw.uniform(1.0f, 3.0f), draw.logarithmic(1.0f, 400.0f),
+                              draw.uniform(0.0f, 1.0f), 0.0f);
+        inputs[4] = glm::vec4(glm::normalize(glm::cross(d, draw.unit())), 0.0f);
+        inputs[5] = glm::vec4(std::cos(other), std::sin(other), 0.0f, 0.0f);
+        cases.push_back(inputs);
+    }
+    cases[0][0].x = 0.0f;
+    cases[1][0].x = 0.1f;                                      // where the series ends
+    cases[2][1] = glm::vec4(0.0f, -1.0f, 0.0f, cases[2][1].w); // the pole of the frames
+    cases[3][1] = glm::vec4(1e-4f, -1.0f, -2e-4f, cases[3][1].w);
+    cases[4][1] = glm::vec4(0.0f, 1.0f, 0.0f, cases[4][1].w);
+    return cases;
+}
+
 std::vector<GlslCase> rsrmCases() {
     std::vector<GlslCase> cases;
     const std::vector<float> exponents = allExponents();

@@ -43,6 +43,9 @@ std::vector<GlslCase> octahedralCases(); ///< p0 unit, p1.xy a point of the squa
 /// p0 to p2 rows, p3 half extents and sphere, p4, p5 blends, p4.w outward, p6 a point inside, p7 a
 /// unit direction, p8 where was captured.
 std::vector<GlslCase> volumeCases();
+/// p0 x in [0, 60], 3 or 7, a number of taps from 4; p1 unit and exponent; p2 cosine, sine, log2 of
+/// a share; p3 reach, narrow, widening; p4 p1's tangent; p5 cosine, sine.
+std::vector<GlslCase> tapCases();
 std::vector<GlslCase> shareCases(); ///< p0 w0, w1, f0, f1; p1.x open
 
 } // namespace lodestar::testing

@@ -8,6 +8,7 @@
 #include "lodestar/probes.glsl"
 #include "lodestar/rsrm.glsl"
 #include "lodestar/sh9.glsl"
+#include "lodestar/taps.glsl"
 
 #include "parity/rows.h"
 
@@ -63,6 +64,27 @@ struct Host3 {
 #include "parity/helpers.glsl"
 #undef LODESTAR_SPECULAR
 };
+struct Host4 {
+#define LODESTAR_SPECULAR 4
+#include "lodestar/environment.glsl"
+#include "parity/environment_rows.inc"
+#include "parity/helpers.glsl"
+#undef LODESTAR_SPECULAR
+};
+struct Host5 {
+#define LODESTAR_SPECULAR 5
+#include "lodestar/environment.glsl"
+#include "parity/environment_rows.inc"
+#include "parity/helpers.glsl"
+#undef LODESTAR_SPECULAR
+};
+struct Host6 {
+#define LODESTAR_SPECULAR 6
+#include "lodestar/environment.glsl"
+#include "parity/environment_rows.inc"
+#include "parity/helpers.glsl"
+#undef LODESTAR_SPECULAR
+};
 struct RsrmHost {
 #include "lodestar/rsrm.glsl"
 #include "parity/rsrm_helpers.glsl"
@@ -88,6 +110,9 @@ std::vector<Evaluation> evaluations() {
     addHost<Host1>(rows);
     addHost<Host2>(rows);
     addHost<Host3>(rows);
+    addHost<Host4>(rows);
+    addHost<Host5>(rows);
+    addHost<Host6>(rows);
 #define PARITY_ROW(function, file, cases, tolerance, ...)                                          \
     rows.push_back([](const GlslCase& p) { return RsrmHost().row_##function(p); });
 #include "parity/rsrm_rows.inc"

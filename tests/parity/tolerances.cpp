@@ -10,6 +10,8 @@
 #include "lodestar/cube.glsl"
 #include "lodestar/lobes.glsl"
 
+#include "parity/tap_tolerances.h"
+
 namespace lodestar::testing {
 namespace {
 
@@ -315,6 +317,15 @@ Tolerance specularTolerance(const GlslCase& p, const glm::dvec4&, int specular) 
     }
     if (specular == 2) {
         return {10.0 * u, 10.0 * u, footprint, 0.0};
+    }
+    if (specular > 3) {
+        // The lookup's direction is off by 67 u, its exponent by 23 u of itself (see below).
+        const double blend = shader_double::lodestar_lookupBlend(s, glm::dot(n, view));
+        const glm::dvec3 direction = glm::normalize(glm::mix(n, r, blend));
+        const TapErrors taps = tapErrors(direction, s, specular == 4 ? 3 : (specular == 5 ? 7 : 16),
+                                         width, static_cast<double>(p[0].y), 67.0 * u, 23.0 * u);
+        return {1.25 * taps.direction + 2.0 * u, taps.direction + 2.0 * u,
+                std::max(taps.level, footprint), 0.0};
     }
     // The tent's lookup: direction by 67 u, through the size term's slope of at most 4; exponent by
     // 23 of itself, through half a logarithm (17) and kappa (5). The lookup's exponent lies in
