@@ -9,6 +9,8 @@
 #include "app/commands.h"
 #include "app/plan_json.h"
 #include "app/scene_options.h"
+#include "lighting/mips.h"
+#include "scene/draw_list.h"
 
 namespace lodestar::app {
 namespace {
@@ -21,13 +23,17 @@ int runPlan(const SceneOptions& options) {
     warn(loaded->light.environment.warnings, loaded->light.name);
     warn(loaded->scene.warnings, options.scene);
     warn(loaded->lightWarnings, loaded->lightsName);
-    const plan::PlanInput input = scene::planInput(loaded->scene, loaded->view, loaded->settings,
-                                                   {loaded->light.name,
-                                                    loaded->light.environment.base.width(),
-                                                    true,
-                                                    !loaded->light.environment.base.empty(),
-                                                    {}},
-                                                   loaded->lights);
+    plan::PlanInput input = scene::planInput(loaded->scene, loaded->view, loaded->settings,
+                                             {loaded->light.name,
+                                              loaded->light.environment.base.width(),
+                                              true,
+                                              !loaded->light.environment.base.empty(),
+                                              {}},
+                                             loaded->lights);
+    if (input.environment.present && scene::hasChoices(input)) {
+        const lighting::Cubemap& base = loaded->light.environment.base;
+        scene::chooseEstimators(lighting::ErrorForecast(base, lighting::tentMips(base)), input);
+    }
     std::printf("%s\n", toJson(plan::plan(input)).dump(2).c_str());
     return 0;
 }

@@ -18,6 +18,7 @@
 #include "io/environment_file.h"
 #include "io/file.h"
 #include "lighting/mips.h"
+#include "lodestar/lobes.glsl"
 
 namespace lodestar::app {
 
@@ -194,7 +195,7 @@ int runBatch(const SampleOptions& options) {
         std::string text;
         if (answer) {
             warn(answer->warnings, sourceOf(*query));
-            text = answerJson(answer->lookup);
+            text = answerJson(*answer);
         } else {
             text = json{{"error", answer.error().message()},
                         {"status", static_cast<int>(answer.error().code)}}
@@ -257,6 +258,22 @@ Sampler::environment(const std::string& text, int width, const lighting::Prepare
     return &made;
 }
 
+lighting::ErrorForecast::Choice Sampler::choose(const std::string& text, int width,
+                                                const lighting::LookupRequest& request) {
+    Entry& entry = entries_.at({text, width});
+    if (entry.forecast.empty()) {
+        entry.forecast =
+            lighting::ErrorForecast(entry.environment.base, entry.environment.tentMips);
+    }
+    double exponent = request.exponent;
+    if (request.lobe == lighting::Lobe::BlinnPhong) {
+        exponent = static_cast<double>(
+            shader::lodestar_lookupExponent(static_cast<float>(exponent), 1.0f));
+    }
+    return entry.forecast.choose(static_cast<double>(request.estimator.tolerance), exponent,
+                                 exponent);
+}
+
 core::Result<Sampler::Answer> Sampler::answerLights(const SampleQuery& query) {
     Answer answer;
     if (query.environment) {
@@ -301,15 +318,27 @@ core::Result<Sampler::Answer> Sampler::answer(const SampleQuery& query) {
     if (!prepared) {
         return prepared.error();
     }
+    if (request->estimator.kind == lighting::EstimatorKind::Auto) {
+        const auto choice =
+            choose(*query.environment, query.width.value_or(io::kDefaultCubeWidth), *request);
+        request->estimator = choice.estimator;
+        answer.estimator = lighting::estimatorName(choice.estimator);
+        answer.foreseenError = choice.error;
+    }
     answer.lookup = lighting::lookup(**prepared, *request);
     return answer;
 }
 
-std::string answerJson(const lighting::LookupAnswer& answer) {
+std::string answerJson(const Sampler::Answer& answer) {
     nlohmann::ordered_json line;
-    line["radiance"] = {answer.radiance.r, answer.radiance.g, answer.radiance.b};
-    line["level"] = answer.level >= 0.0 ? nlohmann::ordered_json(answer.level) : nullptr;
-    line["fetches"] = answer.fetches;
+    const lighting::LookupAnswer& lookup = answer.lookup;
+    line["radiance"] = {lookup.radiance.r, lookup.radiance.g, lookup.radiance.b};
+    line["level"] = lookup.level >= 0.0 ? nlohmann::ordered_json(lookup.level) : nullptr;
+    line["fetches"] = lookup.fetches;
+    if (!answer.estimator.empty()) {
+        line["estimator"] = answer.estimator;
+        line["foreseen_error"] = answer.foreseenError;
+    }
     return line.dump();
 }
 
@@ -340,7 +369,7 @@ int runSample(const SampleOptions& options) {
         return fail(answer.error());
     }
     warn(answer->warnings, sourceOf(options.query));
-    std::printf("%s\n", answerJson(answer->lookup).c_str());
+    std::printf("%s\n", answerJson(*answer).c_str());
     return finish(0);
 }
 

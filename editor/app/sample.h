@@ -12,6 +12,7 @@
 #include "core/result.h"
 #include "core/tally.h"
 #include "lighting/environment.h"
+#include "lighting/error_forecast.h"
 #include "lighting/lookup.h"
 
 namespace lodestar::app {
@@ -39,6 +40,8 @@ class Sampler {
 public:
     struct Answer {
         lighting::LookupAnswer lookup;
+        std::string estimator;      ///< that `auto` chose; else empty
+        double foreseenError = 0.0; ///< of it, relative RMSE
         core::Tally warnings; ///< repairs of this query; an environment's are told on its first use
     };
 
@@ -49,7 +52,11 @@ private:
     struct Entry {
         lighting::PreparedEnvironment environment;
         lighting::PreparedParts parts;
+        lighting::ErrorForecast forecast; ///< empty until `auto` has asked
     };
+    /// What `auto` stands for. @pre the environment's tent mips are made
+    [[nodiscard]] lighting::ErrorForecast::Choice choose(const std::string& text, int width,
+                                                         const lighting::LookupRequest& request);
     /// What the query asks of a document's lights.
     [[nodiscard]] core::Result<Answer> answerLights(const SampleQuery& query);
 
@@ -64,8 +71,9 @@ private:
     std::size_t texels_ = 0; ///< base texels held
 };
 
-/// The JSON line of an answer: {"radiance":[r,g,b],"level":number or null,"fetches":n}.
-[[nodiscard]] std::string answerJson(const lighting::LookupAnswer& answer);
+/// The JSON line of an answer: {"radiance":[r,g,b],"level":number or null,"fetches":n}, of `auto`
+/// with "estimator", its choice, and "foreseen_error".
+[[nodiscard]] std::string answerJson(const Sampler::Answer& answer);
 
 /// One line of a batch as a query; keys that the line lacks are taken from the defaults.
 /// @errors Usage for what is not an object of the known keys

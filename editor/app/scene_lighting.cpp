@@ -50,8 +50,21 @@ void apply(const document::Material& from, io::GltfMaterial& material, core::Tal
         }
         material.blinnPhong = given;
     }
-    warnings.add("estimator of one material, left out: a frame has one for all",
-                 from.specular || from.tolerance ? 1 : 0);
+    if (from.specular) {
+        const auto estimator = lighting::parseEstimator(*from.specular, lighting::Term::Glossy);
+        const bool served = estimator && plan::estimatorFeature(*estimator).has_value();
+        if (served || (estimator && estimator->kind == lighting::EstimatorKind::Auto)) {
+            material.specularEstimator = *estimator;
+        }
+        warnings.add("estimator of one material that is not tent, ring:3, ring:7, taps:32, taps:64 "
+                     "or auto:ERROR, left out",
+                     material.specularEstimator ? 0 : 1);
+    } else if (from.tolerance) {
+        lighting::Estimator estimator{lighting::EstimatorKind::Auto};
+        estimator.tolerance =
+            static_cast<float>(std::min(*from.tolerance, double{lighting::kMostTolerance}));
+        material.specularEstimator = estimator;
+    }
 }
 
 } // namespace

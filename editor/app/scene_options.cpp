@@ -225,11 +225,11 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("--time", options.time,
                        "Seconds into the animation (default the first); its ends hold outside it");
     command.add_option("--size", options.size, "Picture size WxH")->capture_default_str();
-    command.add_option(
-        "--specular", options.specular,
-        "Glossy estimator: tent (default), mip, mip-floor, bias:LAMBDA, bias:LAMBDA:vertex.\n"
-        "Of a document's lights, both terms: rsrm (default), rsrm-published,\n"
-        "rsrm-published-columns");
+    command.add_option("--specular", options.specular,
+                       "Glossy estimator: tent (default), auto:ERROR, ring:3, ring:7, taps:N,\n"
+                       "mip, mip-floor, bias:LAMBDA, bias:LAMBDA:vertex.\n"
+                       "Of a document's lights, both terms: rsrm (default), rsrm-published,\n"
+                       "rsrm-published-columns");
     command.add_option(
         "--diffuse", options.diffuse,
         "Diffuse estimator: irradiance (default), sh9, lowest-mip, bias:LAMBDA, or the lights'");

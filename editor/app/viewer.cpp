@@ -55,6 +55,7 @@ core::Result<std::unique_ptr<Viewer>> Viewer::make(gl::Device& device, LoadedSce
     std::unique_ptr<Viewer> viewer(new Viewer(device, options));
     viewer->lightChosen_ = !options.scene.environment.empty();
     viewer->settings_ = loaded.settings;
+    viewer->settings_.waitForForecast = false;
     viewer->settings_.faceBudget = options.scene.faceBudget.value_or(
         options.scene.probeBudgetMs ? viewer->settings_.faceBudget : kFacesAFrame);
     viewer->request_ = loaded.camera;

@@ -115,7 +115,8 @@ core::Result<Program> Program::makeFromText(Device& device, const std::string& v
             core::ErrorCode::Internal, "the driver does not link the program: " + log, label, {}};
     }
     if (device.capabilities().debugOutput) {
-        glObjectLabel(GL_PROGRAM, program.id_, -1, label.c_str());
+        constexpr std::size_t kMostLabel = 255; // every driver takes as many
+        glObjectLabel(GL_PROGRAM, program.id_, -1, label.substr(0, kMostLabel).c_str());
     }
     return program;
 }

@@ -24,6 +24,7 @@
 #include "core/tally.h"
 #include "core/texels.h"
 #include "io/gltf_problems.h"
+#include "lighting/estimator.h"
 
 namespace lodestar::io {
 
@@ -71,6 +72,8 @@ struct GltfBlinnPhong {
 
 struct GltfMaterial {
     std::string name;
+    /// How its glossy light is estimated, where a lighting document says so; no file does.
+    std::optional<lighting::Estimator> specularEstimator{};
     glm::vec4 baseColor{1.0f}; ///< linear
     float metallic = 1.0f;
     float roughness = 1.0f;

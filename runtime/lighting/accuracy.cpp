@@ -74,7 +74,7 @@ private:
 
 /// The variance that texels of a face of so many add to a lobe's, as a share of it: a texel of side
 /// H = 2 / W adds H^2 / 12 along each axis to 1 / s (docs/derivations/mip.md).
-double addedVariance(int width, double exponent) {
+double varianceOf(int width, double exponent) {
     return exponent / (3.0 * width * width);
 }
 
@@ -113,7 +113,7 @@ std::vector<MeasuredDirection> measuredDirections(const Cubemap& base, int count
     return directions;
 }
 
-LobeMeans::LobeMeans(const Cubemap& base) {
+LobeMeans::LobeMeans(const Cubemap& base, double addedVariance) : addedVariance_(addedVariance) {
     const Cubemap chain = solidAngleMips(base);
     for (int level = 0; level < chain.levelCount(); ++level) {
         Cubemap map(chain.width(level));
@@ -123,10 +123,9 @@ LobeMeans::LobeMeans(const Cubemap& base) {
 }
 
 glm::dvec3 LobeMeans::operator()(const glm::dvec3& direction, double exponent) const {
-    constexpr double kAdded = 1e-4;
     std::size_t level = 0;
     while (level + 1 < maps_.size() && maps_[level + 1].width() >= 16 &&
-           addedVariance(maps_[level + 1].width(), std::max(exponent, 1.0)) <= kAdded) {
+           varianceOf(maps_[level + 1].width(), std::max(exponent, 1.0)) <= addedVariance_) {
         ++level;
     }
     return referencePhong(maps_[level], direction, exponent);

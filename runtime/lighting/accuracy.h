@@ -27,16 +27,17 @@ struct MeasuredDirection {
 [[nodiscard]] std::vector<MeasuredDirection> measuredDirections(const Cubemap& base, int count);
 
 /// Mean radiance over Phong lobes by referencePhong: wide lobes over coarser means, whose texels
-/// add at most 1e-4 of a lobe's variance.
+/// add at most a share of a lobe's variance.
 class LobeMeans {
 public:
     /// @pre a map with texels
-    explicit LobeMeans(const Cubemap& base);
+    explicit LobeMeans(const Cubemap& base, double addedVariance = 1e-4);
     /// @param direction unit  @param exponent [0, 1e7]
     [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& direction, double exponent) const;
 
 private:
     std::vector<Cubemap> maps_; ///< the finest first
+    double addedVariance_;
 };
 
 /// The same for many, on all processors. @return [direction][exponent]

@@ -25,6 +25,7 @@ constexpr std::array kRows{
     Row{EstimatorKind::Ring3, "ring:3", true, false},
     Row{EstimatorKind::Ring7, "ring:7", true, false},
     Row{EstimatorKind::Taps, "taps:N", true, false},
+    Row{EstimatorKind::Auto, "auto:ERROR", true, false},
     Row{EstimatorKind::LowestMip, "lowest-mip", false, true},
     Row{EstimatorKind::Sh9, "sh9", false, true},
     Row{EstimatorKind::Irradiance, "irradiance", false, true},
@@ -32,6 +33,7 @@ constexpr std::array kRows{
 };
 
 constexpr std::string_view kBiasPrefix = "bias:";
+constexpr std::string_view kAutoPrefix = "auto:";
 constexpr std::string_view kTapsPrefix = "taps:";
 constexpr std::string_view kVertexSuffix = ":vertex";
 constexpr float kMaxBias = 32.0f; ///< deeper than any chain; larger values are slips of the pen
@@ -100,6 +102,32 @@ core::Result<Estimator> parseTaps(std::string_view name, Term term) {
     return estimator;
 }
 
+core::Result<Estimator> parseAuto(std::string_view name, Term term) {
+    if (!serves(EstimatorKind::Auto, term)) {
+        return unknown(name, term);
+    }
+    const std::string_view number = name.substr(kAutoPrefix.size());
+    Estimator estimator{EstimatorKind::Auto};
+    const char* end = number.data() + number.size();
+    const auto [stop, code] = std::from_chars(number.data(), end, estimator.tolerance);
+    if (code != std::errc() || stop != end ||
+        !(estimator.tolerance > 0.0f && estimator.tolerance <= kMostTolerance)) {
+        return core::Error{core::ErrorCode::Usage,
+                           "\"" + std::string(name) +
+                               "\" needs a relative error above 0, at most 10, after \"auto:\"",
+                           {},
+                           {}};
+    }
+    return estimator;
+}
+
+/// The shortest digits that read back to the same float.
+std::string digitsOf(float value) {
+    std::array<char, 32> digits{};
+    const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+    return {digits.data(), result.ptr};
+}
+
 } // namespace
 
 core::Result<Estimator> parseEstimator(std::string_view name, Term term) {
@@ -108,6 +136,9 @@ core::Result<Estimator> parseEstimator(std::string_view name, Term term) {
     }
     if (name.starts_with(kTapsPrefix)) {
         return parseTaps(name, term);
+    }
+    if (name.starts_with(kAutoPrefix)) {
+        return parseAuto(name, term);
     }
     for (const Row& row : kRows) {
         if (row.name == name && (term == Term::Glossy ? row.glossy : row.diffuse)) {
@@ -121,14 +152,13 @@ std::string estimatorName(const Estimator& estimator) {
     if (estimator.kind == EstimatorKind::Taps) {
         return std::string(kTapsPrefix) + std::to_string(estimator.taps);
     }
+    if (estimator.kind == EstimatorKind::Auto) {
+        return std::string(kAutoPrefix) + digitsOf(estimator.tolerance);
+    }
     if (estimator.kind != EstimatorKind::Bias && estimator.kind != EstimatorKind::BiasVertex) {
         return std::string(rowOf(estimator.kind).name);
     }
-    // The shortest digits that read back to the same float.
-    std::array<char, 32> digits{};
-    const auto result =
-        std::to_chars(digits.data(), digits.data() + digits.size(), estimator.leastLevel);
-    std::string name = std::string(kBiasPrefix) + std::string(digits.data(), result.ptr);
+    std::string name = std::string(kBiasPrefix) + digitsOf(estimator.leastLevel);
     if (estimator.kind == EstimatorKind::BiasVertex) {
         name += kVertexSuffix;
     }
@@ -147,7 +177,8 @@ std::vector<std::string> estimatorNames(Term term) {
 
 bool readsTentMips(EstimatorKind kind) {
     return kind == EstimatorKind::Tent || kind == EstimatorKind::Ring3 ||
-           kind == EstimatorKind::Ring7 || kind == EstimatorKind::Taps;
+           kind == EstimatorKind::Ring7 || kind == EstimatorKind::Taps ||
+           kind == EstimatorKind::Auto;
 }
 
 bool serves(EstimatorKind kind, Term term) {

@@ -21,6 +21,7 @@ enum class EstimatorKind {
     Ring3,      ///< `ring:3`: three taps about the lobe's axis, from tent mips
     Ring7,      ///< `ring:7`: six taps about the lobe's axis and the axis itself
     Taps,       ///< `taps:N`: N taps on a spiral, from tent mips
+    Auto,       ///< `auto:ERROR`: the cheapest of ErrorForecast's that is right enough
     LowestMip,  ///< `lowest-mip`: Lambert from the coarsest plain mip, as published
     Sh9,        ///< `sh9`: nine spherical-harmonic coefficients
     Irradiance, ///< `irradiance`: a 16x16 irradiance cube
@@ -34,11 +35,15 @@ enum class Term { Glossy, Diffuse };
 inline constexpr int kLeastTaps = 4;
 inline constexpr int kMostTaps = 1024;
 
+/// The coarsest tolerance of `auto`.
+inline constexpr float kMostTolerance = 10.0f;
+
 /// An estimator and its parameter.
 struct Estimator {
     EstimatorKind kind = EstimatorKind::Tent;
     float leastLevel = 0.0f; ///< bias only, mip level >= 0
     int taps = 16;           ///< taps only, [kLeastTaps, kMostTaps]
+    float tolerance = 0.05f; ///< auto only, relative RMSE, (0, kMostTolerance]
 
     bool operator==(const Estimator&) const = default;
 };
@@ -52,10 +57,12 @@ inline constexpr Estimator kDefaultDiffuse{EstimatorKind::Irradiance, 0.0f};
 /// Its name, as parseEstimator takes it.
 [[nodiscard]] std::string estimatorName(const Estimator& estimator);
 
-/// The names a term has, for help and messages; `bias:LAMBDA` and `taps:N` stand as that.
+/// The names a term has, for help and messages; `bias:LAMBDA`, `taps:N` and `auto:ERROR`
+/// stand as that.
 [[nodiscard]] std::vector<std::string> estimatorNames(Term term);
 
-/// Whether it reads tent mips about the lookup of a Blinn-Phong lobe: `tent`, rings and taps.
+/// Whether it reads tent mips about the lookup of a Blinn-Phong lobe: `tent`, rings, taps
+/// and what `auto` chooses.
 [[nodiscard]] bool readsTentMips(EstimatorKind kind);
 
 /// Whether the term can be estimated so: `bias` and `reference` for both, the others for one.

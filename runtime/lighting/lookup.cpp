@@ -155,6 +155,7 @@ PreparedParts partsFor(const Estimator& estimator) {
     case EstimatorKind::Ring3:
     case EstimatorKind::Ring7:
     case EstimatorKind::Taps:
+    case EstimatorKind::Auto:
         parts.tentMips = true;
         break;
     case EstimatorKind::Sh9:

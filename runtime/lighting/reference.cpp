@@ -83,10 +83,19 @@ struct WeightedSum {
     double weight = 0.0;
 };
 
+/// Whether a row of a face has a cosine with an axis above a least one: (A + a u) / sqrt(u^2 + B)
+/// is at most sqrt(A^2 / B + a^2), and positive only where A + a u is.
+bool reaches(const FaceLinear& axis, double v, double least) {
+    const double constant = axis.constant + axis.alongV * v;
+    return constant + std::abs(axis.alongU) > 0.0 &&
+           constant * constant / (v * v + 1.0) + axis.alongU * axis.alongU >= least * least;
+}
+
 /// Adds all texels by `weigh(cosines...)`, a weight per steradian from the dot products of the
 /// texel's unit direction with the axes.
+/// @param least the weight is 0 where the cosine with the first axis is not above it, >= 0
 template <std::size_t Axes, class Weigh>
-WeightedSum sumOverTexels(const Cubemap& base, const std::array<dvec3, Axes>& axes,
+WeightedSum sumOverTexels(const Cubemap& base, const std::array<dvec3, Axes>& axes, double least,
                           const Weigh& weigh) {
     const int width = base.width();
     const auto grid = gridFor(width);
@@ -100,6 +109,11 @@ WeightedSum sumOverTexels(const Cubemap& base, const std::array<dvec3, Axes>& ax
         }
         std::size_t inFace = 0;
         for (const double v : grid->coordinates) {
+            if (!reaches(linear[0], v, least)) {
+                inFace += static_cast<std::size_t>(width);
+                texel += static_cast<std::size_t>(width);
+                continue;
+            }
             WeightedSum row; // summed by rows: rounding grows with the row, not with the map
             for (const double u : grid->coordinates) {
                 std::array<double, Axes> cosines{};
@@ -210,7 +224,7 @@ glm::dvec3 referencePhong(const Cubemap& base, const glm::dvec3& direction, doub
     WeightedSum sum;
     if (narrow < 1.0) {
         const double least = leastCosine(s);
-        sum = sumOverTexels<1>(base, {axis}, [&](const std::array<double, 1>& cosine) {
+        sum = sumOverTexels<1>(base, {axis}, least, [&](const std::array<double, 1>& cosine) {
             return cosine[0] > least ? power(cosine[0], s) : 0.0;
         });
     }
@@ -230,7 +244,7 @@ glm::dvec3 referenceBlinnPhong(const Cubemap& base, const glm::dvec3& normal,
     WeightedSum sum;
     if (narrow < 1.0) {
         const double least = leastCosine(s);
-        sum = sumOverTexels<2>(base, {n, v}, [&](const std::array<double, 2>& cosines) {
+        sum = sumOverTexels<2>(base, {n, v}, 0.0, [&](const std::array<double, 2>& cosines) {
             // n.h = (n.l + n.v) / |l + v|, |l + v|^2 = 2 + 2 l.v
             const double squared = 2.0 + 2.0 * cosines[1];
             if (cosines[0] <= 0.0 || squared <= 0.0) {

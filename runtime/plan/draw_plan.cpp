@@ -2,6 +2,7 @@
 #include "plan/draw_plan.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <tuple>
 #include <utility>
 
@@ -46,6 +47,10 @@ Features featuresOf(const PlanInput& input, const DrawView& draw, Features light
         draw.sharpest > input.rsrmGreatestExponent) {
         features |= bit(Feature::RsrmMirror);
     }
+    if (draw.glossy && draw.specular != input.specular) {
+        const std::optional<Feature> own = estimatorFeature(draw.specular);
+        features |= own ? bit(*own) : 0u;
+    }
     return features;
 }
 
@@ -62,6 +67,23 @@ void sortForDrawing(const PlanInput& input, const std::vector<ProbeChoice>& choi
     std::stable_sort(blended, order.end(), [&](std::size_t a, std::size_t b) {
         return distance(input.draws[a]) > distance(input.draws[b]);
     });
+}
+
+std::string percent(double share) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g %%", 100.0 * share);
+    return text;
+}
+
+/// What `auto` chose and why.
+std::string choiceText(const DrawView& draw) {
+    if (draw.specular.kind == lighting::EstimatorKind::Auto) {
+        return "glossy light by tent until errors are foreseen";
+    }
+    const bool met = draw.foreseenError <= draw.toleratedError;
+    return "glossy light by " + lighting::estimatorName(draw.specular) + ", " +
+           (met ? "the cheapest within " : "the best, though not within ") +
+           percent(draw.toleratedError) + ": " + percent(draw.foreseenError) + " foreseen";
 }
 
 /// An effect for each draw; the call to the driver is the first's of its batch.
@@ -81,6 +103,9 @@ void describeDraws(const PlanInput& input, EffectPlan& result) {
             effect.reason = leader[i] == i ? "inside the view"
                                            : "inside the view, in one call with '" +
                                                  input.draws[leader[i]].subject + "'";
+            if (draw.toleratedError > 0.0 && draw.glossy && draw.lit && input.environment.present) {
+                effect.reason += "; " + choiceText(draw);
+            }
             effect.cost.draws = leader[i] == i ? 1 : 0;
         }
         result.effects.push_back(std::move(effect));

@@ -13,7 +13,7 @@ namespace {
 
 using lighting::PreparedParts;
 
-constexpr std::array<const char*, 25> kFeatureNames = {"normals",
+constexpr std::array<const char*, 30> kFeatureNames = {"normals",
                                                        "tangents",
                                                        "vertex-colors",
                                                        "base-color-texture",
@@ -37,7 +37,12 @@ constexpr std::array<const char*, 25> kFeatureNames = {"normals",
                                                        "shadows",
                                                        "rsrm-mirror",
                                                        "probe",
-                                                       "second-probe"};
+                                                       "second-probe",
+                                                       "tent",
+                                                       "ring-3",
+                                                       "ring-7",
+                                                       "taps-32",
+                                                       "taps-64"};
 
 /// Texels of a whole chain of six faces.
 std::uint64_t chainTexels(int width) {
@@ -298,6 +303,40 @@ void planBackdrop(const PlanInput& input, EffectPlan& result) {
 }
 
 } // namespace
+
+namespace {
+
+struct OwnEstimator {
+    Feature feature;
+    lighting::Estimator estimator;
+};
+constexpr OwnEstimator kOwnEstimators[] = {
+    {Feature::Tent, {lighting::EstimatorKind::Tent}},
+    {Feature::Ring3, {lighting::EstimatorKind::Ring3}},
+    {Feature::Ring7, {lighting::EstimatorKind::Ring7}},
+    {Feature::Taps32, {lighting::EstimatorKind::Taps, 0.0f, 32}},
+    {Feature::Taps64, {lighting::EstimatorKind::Taps, 0.0f, 64}},
+};
+
+} // namespace
+
+std::optional<Feature> estimatorFeature(const lighting::Estimator& estimator) {
+    for (const OwnEstimator& own : kOwnEstimators) {
+        if (own.estimator == estimator) {
+            return own.feature;
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<lighting::Estimator> estimatorOf(Features set) {
+    for (const OwnEstimator& own : kOwnEstimators) {
+        if (has(set, own.feature)) {
+            return own.estimator;
+        }
+    }
+    return std::nullopt;
+}
 
 std::vector<std::string> featureNames(Features set) {
     std::vector<std::string> names;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,11 @@ enum class Feature : std::uint32_t {
     RsrmMirror = 1u << 22,           ///< lobes sharper than the maps' last row show the gradients
     Probe = 1u << 23,                ///< a light probe holds it
     SecondProbe = 1u << 24,          ///< and another
+    Tent = 1u << 25,                 ///< glossy light by an estimator of its own, not the frame's
+    Ring3 = 1u << 26,
+    Ring7 = 1u << 27,
+    Taps32 = 1u << 28,
+    Taps64 = 1u << 29,
 };
 
 using Features = std::uint32_t;
@@ -53,6 +59,11 @@ using Features = std::uint32_t;
 [[nodiscard]] constexpr bool has(Features set, Feature feature) {
     return (set & bit(feature)) != 0;
 }
+/// The feature of a glossy estimator that a draw may have of its own.
+[[nodiscard]] std::optional<Feature> estimatorFeature(const lighting::Estimator& estimator);
+/// The estimator of such features; absent where a set has none.
+[[nodiscard]] std::optional<lighting::Estimator> estimatorOf(Features set);
+
 /// Lower-case names of the bits, in order, e.g. "normal-texture".
 [[nodiscard]] std::vector<std::string> featureNames(Features set);
 
@@ -68,9 +79,13 @@ struct DrawView {
     bool casts = true; ///< a shadow: triangles that are not blended
     /// Phong exponent of its sharpest lookup; infinite where a texture gives it.
     double sharpest = std::numeric_limits<double>::infinity();
-    double bluntest = 0.0;    ///< of its bluntest; 0 where a texture gives it
-    float screenShare = 0.0f; ///< of the picture that it may cover, [0, 1]
-    float distance = 0.0f;    ///< metres along the view, for the order of blended draws
+    double bluntest = 0.0; ///< of its bluntest; 0 where a texture gives it
+    /// How its glossy light is estimated; `auto` where nothing is foreseen yet.
+    lighting::Estimator specular = lighting::kDefaultSpecular;
+    double toleratedError = 0.0; ///< of `auto`, relative RMSE; 0: none was named
+    double foreseenError = 0.0;  ///< of what it chose
+    float screenShare = 0.0f;    ///< of the picture that it may cover, [0, 1]
+    float distance = 0.0f;       ///< metres along the view, for the order of blended draws
     /// Draws of one geometry, one material and one winding are one call to the driver.
     std::uint64_t geometry = 0;
     std::uint32_t material = 0;

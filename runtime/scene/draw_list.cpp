@@ -123,6 +123,13 @@ plan::DrawView drawView(const Scene& scene, const DrawItem& item, std::size_t in
         draw.screenShare = screenShare(bounds, view);
         draw.distance = -glm::vec3(view.cameraFromWorld * glm::vec4(bounds.center(), 1.0f)).z;
     }
+    // Estimators that read other mips are the frame's alone: one chain is bound.
+    draw.specular = lighting::readsTentMips(settings.specular.kind)
+                        ? materialOf(scene, primitive).specularEstimator.value_or(settings.specular)
+                        : settings.specular;
+    draw.toleratedError = draw.specular.kind == lighting::EstimatorKind::Auto
+                              ? static_cast<double>(draw.specular.tolerance)
+                              : 0.0;
     setTerms(draw, materialOf(scene, primitive), settings);
     draw.sharpest = sharpestLookup(materialOf(scene, primitive), settings);
     draw.bluntest = bluntestLookup(materialOf(scene, primitive), settings);
@@ -257,6 +264,23 @@ plan::PlanInput planInput(const Scene& scene, const View& view, const RenderSett
                    static_cast<std::uint64_t>(settings.height) *
                    static_cast<std::uint64_t>(settings.samplesPerSide * settings.samplesPerSide);
     return input;
+}
+
+bool hasChoices(const plan::PlanInput& input) {
+    return std::any_of(input.draws.begin(), input.draws.end(), [](const plan::DrawView& draw) {
+        return draw.specular.kind == lighting::EstimatorKind::Auto;
+    });
+}
+
+void chooseEstimators(const lighting::ErrorForecast& forecast, plan::PlanInput& input) {
+    for (plan::DrawView& draw : input.draws) {
+        if (draw.specular.kind == lighting::EstimatorKind::Auto) {
+            const lighting::ErrorForecast::Choice choice =
+                forecast.choose(draw.toleratedError, draw.bluntest, draw.sharpest);
+            draw.specular = choice.estimator;
+            draw.foreseenError = choice.error;
+        }
+    }
 }
 
 } // namespace lodestar::scene

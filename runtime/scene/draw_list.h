@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "lighting/error_forecast.h"
 #include "plan/effect_plan.h"
 #include "scene/renderer.h"
 #include "scene/scene.h"
@@ -41,5 +42,11 @@ struct PlacedLight {
 /// What a primitive's shader must do under the settings.
 [[nodiscard]] plan::Features featuresOf(const Scene& scene, const io::GltfPrimitive& primitive,
                                         const RenderSettings& settings);
+
+/// Whether some draw's estimator is still `auto`.
+[[nodiscard]] bool hasChoices(const plan::PlanInput& input);
+/// What `auto` stands for, draw by draw: the cheapest that is foreseen to be right enough over the
+/// draw's exponents.
+void chooseEstimators(const lighting::ErrorForecast& forecast, plan::PlanInput& input);
 
 } // namespace lodestar::scene

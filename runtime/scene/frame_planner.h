@@ -22,6 +22,8 @@ public:
                        bool deforms);
     /// The input, whose parts beside the draws are the caller's to fill.
     [[nodiscard]] plan::PlanInput& input() { return input_; }
+    /// Describes the draws anew the next time, whatever has changed.
+    void forgetDraws() { plan_ = nullptr; }
     /// Whether the last description found nothing changed.
     [[nodiscard]] bool drawsKept() const { return drawsKept_; }
     /// The plan of the input.

@@ -2,6 +2,7 @@
 #include "scene/gpu_environment.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "lighting/mips.h"
 #include "scene/gpu_scene.h"
@@ -23,6 +24,20 @@ GpuEnvironment::GpuEnvironment(std::string source, lighting::Cubemap base)
 
 plan::EnvironmentView GpuEnvironment::view() const {
     return {source_, base_.width(), prepared_ == lighting::PreparedParts{}, !empty(), {}};
+}
+
+const lighting::ErrorForecast* GpuEnvironment::forecast(bool wait) {
+    if (empty()) {
+        return nullptr;
+    }
+    if (!forecast_.valid()) {
+        forecast_ = std::async(std::launch::async, [base = base_] {
+            return lighting::ErrorForecast(base, lighting::tentMips(base));
+        });
+    }
+    const bool there =
+        wait || forecast_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    return there ? &forecast_.get() : nullptr;
 }
 
 core::Result<void> GpuEnvironment::prepare(gl::Device& device,

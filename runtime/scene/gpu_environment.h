@@ -3,11 +3,13 @@
 // The distant environment on the GPU: the parts that plans have asked for so far.
 #pragma once
 
+#include <future>
 #include <string>
 
 #include "gl/texture.h"
 #include "host/blocks.glsl"
 #include "lighting/environment.h"
+#include "lighting/error_forecast.h"
 #include "scene/renderer.h"
 
 namespace lodestar::scene {
@@ -24,6 +26,10 @@ public:
     /// Mean radiance over the sphere, and the greatest.
     [[nodiscard]] const glm::dvec3& mean() const { return mean_; }
     [[nodiscard]] double brightest() const { return brightest_; }
+
+    /// What errors the estimators will make on it, measured on another thread from the first call
+    /// on; null until they are. @param wait until they are
+    [[nodiscard]] const lighting::ErrorForecast* forecast(bool wait);
 
     /// Makes and uploads parts. @errors NoOpenGl if the driver has no memory for one
     [[nodiscard]] core::Result<void> prepare(gl::Device& device,
@@ -42,6 +48,7 @@ private:
     lighting::Cubemap base_;
     glm::dvec3 mean_{0.0};
     double brightest_ = 0.0;
+    std::shared_future<lighting::ErrorForecast> forecast_;
     lighting::PreparedParts prepared_;
     lighting::Sh9Coefficients sh9_{};
     gl::Texture tentMips_, boxMips_, irradiance_;

@@ -90,7 +90,8 @@ gl::Defines definesFor(plan::Features features, const plan::EffectPlan& plan,
     defines.emplace_back("LODESTAR_PROBES", plan::has(features, Feature::SecondProbe) ? "2"
                                             : plan::has(features, Feature::Probe)     ? "1"
                                                                                       : "0");
-    const gl::Defines chosen = estimatorDefines(settings.specular, settings.diffuse);
+    const gl::Defines chosen =
+        estimatorDefines(plan::estimatorOf(features).value_or(settings.specular), settings.diffuse);
     defines.insert(defines.end(), chosen.begin(), chosen.end());
     return defines;
 }

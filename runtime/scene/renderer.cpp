@@ -62,6 +62,7 @@ struct Renderer::State {
     ProbeObserver observer;
     GpuProbes probes;
     core::Tally probeWarnings;
+    bool forecastAwaited = false; ///< some draw's estimator is still to be chosen
 
     /// What becomes of a tile that `target` holds: x, y, width, height in pixels from the top left.
     using TileSink = std::function<void(const glm::ivec4&)>;
@@ -72,6 +73,7 @@ struct Renderer::State {
                                    const TileSink& sink);
     void drawTile(const plan::EffectPlan& plan, const RenderSettings& settings,
                   const blocks::LodestarFrame& block);
+    void chooseEstimators(bool wait, plan::PlanInput& input);
     [[nodiscard]] std::shared_ptr<const plan::EffectPlan> planFrame(const View& view,
                                                                     const RenderSettings& settings);
     core::Result<void> drawShadows(const plan::EffectPlan& plan, const RenderSettings& settings,
@@ -221,6 +223,7 @@ core::Result<std::unique_ptr<Renderer>> Renderer::make(gl::Device& device, const
 
 void Renderer::setEnvironment(std::string source, lighting::Cubemap base) {
     state_->environment = GpuEnvironment(std::move(source), std::move(base));
+    state_->planner.forgetDraws(); // estimators are chosen for this map
     state_->probes.setWritten(writtenFactor(state_->scene, state_->environment, state_->lights));
 }
 
@@ -300,12 +303,27 @@ plan::PlanInput planInput(const Scene& scene, const View& view, const RenderSett
     return input;
 }
 
+/// What `auto` stands for; where nothing is foreseen yet draws are described again in the next
+/// frame.
+void Renderer::State::chooseEstimators(bool wait, plan::PlanInput& input) {
+    const bool wanted = input.environment.present && hasChoices(input);
+    const lighting::ErrorForecast* forecast = wanted ? environment.forecast(wait) : nullptr;
+    forecastAwaited = wanted && forecast == nullptr;
+    if (forecast != nullptr) {
+        scene::chooseEstimators(*forecast, input);
+    }
+}
+
 std::shared_ptr<const plan::EffectPlan> Renderer::State::planFrame(const View& view,
                                                                    const RenderSettings& settings) {
     GpuDeformation& deformation = drawer.deformation();
+    if (forecastAwaited) {
+        planner.forgetDraws();
+    }
     planner.describeDraws(scene, view, settings, deformation.deforms());
     plan::PlanInput& input = planner.input();
     input.environment = beside(environment.view(), lights);
+    chooseEstimators(settings.waitForForecast, input);
     input.alreadyPrepared = environment.prepared();
     input.instancesPerPage = GpuInstances::pageSize(device);
     deformation.describe(scene, drawer.items(), input);

@@ -42,6 +42,8 @@ struct RenderSettings {
     double hour = 15.0;   ///< local solar time of the lights; finite, wrapped into [0, 24)
     bool seamless = true; ///< false filters each cube face on its own, for comparison only
     std::optional<MaterialOverride> materialOverride;
+    /// `auto` waits for the errors that it chooses by; else frames use `tent` until they are there.
+    bool waitForForecast = true;
     int faceBudget = 1000000; ///< faces of light probes that a frame draws, at most
     /// Milliseconds of the GPU's time that a frame spends on light probes, by what they took
     /// before, at most, but for one face and light that must be made; infinite: unbounded.

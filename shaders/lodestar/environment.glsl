@@ -180,6 +180,21 @@ LODESTAR_FN vec3 lodestar_specularTaps(LodestarCube cube, vec3 direction, Real e
     return sum * (1.0f / Real(count));
 }
 
+/// Radiance over a Phong lobe about a direction from tent mips, by as many taps as LODESTAR_SPECULAR
+/// says; by one where it reads other mips.
+LODESTAR_FN vec3 lodestar_specularOfTents(LodestarCube cube, vec3 direction, Real exponent,
+                                          Real footprint) {
+#if LODESTAR_SPECULAR == LODESTAR_SPECULAR_RING3
+    return lodestar_specularRing(cube, direction, exponent, footprint, 3);
+#elif LODESTAR_SPECULAR == LODESTAR_SPECULAR_RING7
+    return lodestar_specularRing(cube, direction, exponent, footprint, 7);
+#elif LODESTAR_SPECULAR == LODESTAR_SPECULAR_TAPS
+    return lodestar_specularTaps(cube, direction, exponent, footprint, LODESTAR_TAPS);
+#else
+    return lodestar_specularTent(cube, direction, exponent, footprint);
+#endif
+}
+
 /// The glossy term's radiance by the estimator LODESTAR_SPECULAR, before Fresnel.
 /// @param reflectionDx, reflectionDy screen derivatives of the reflection vector (0 on the CPU)
 LODESTAR_FN vec3 lodestar_specular(LodestarCube cube, LodestarSurface surface, vec3 reflectionDx,
@@ -195,15 +210,7 @@ LODESTAR_FN vec3 lodestar_specular(LodestarCube cube, LodestarSurface surface, v
     return lodestar_specularBias(cube, r, footprint);
 #else
     LodestarLookup lookup = lodestar_lookup(surface.normal, surface.view, surface.exponent);
-#if LODESTAR_SPECULAR == LODESTAR_SPECULAR_RING3
-    return lodestar_specularRing(cube, lookup.direction, lookup.exponent, footprint, 3);
-#elif LODESTAR_SPECULAR == LODESTAR_SPECULAR_RING7
-    return lodestar_specularRing(cube, lookup.direction, lookup.exponent, footprint, 7);
-#elif LODESTAR_SPECULAR == LODESTAR_SPECULAR_TAPS
-    return lodestar_specularTaps(cube, lookup.direction, lookup.exponent, footprint, LODESTAR_TAPS);
-#else
-    return lodestar_specularTent(cube, lookup.direction, lookup.exponent, footprint);
-#endif
+    return lodestar_specularOfTents(cube, lookup.direction, lookup.exponent, footprint);
 #endif
 #endif
 }

@@ -32,7 +32,7 @@ SampleQuery query(const nlohmann::json& line) {
 nlohmann::json answerOf(Sampler& sampler, const nlohmann::json& line) {
     const auto answer = sampler.answer(query(line));
     EXPECT_TRUE(answer) << line;
-    return answer ? nlohmann::json::parse(app::answerJson(answer->lookup)) : nlohmann::json{};
+    return answer ? nlohmann::json::parse(app::answerJson(*answer)) : nlohmann::json{};
 }
 
 core::ErrorCode refusalOf(Sampler& sampler, const std::string& line) {

@@ -45,7 +45,7 @@ std::string describe(const GlslCase& inputs) {
 /// Whether a row is worth running: what does not depend on LODESTAR_SPECULAR is run once.
 bool isDistinct(const ParityRow& row) {
     return row.specular == 0 || row.function == "lodestar_specular" ||
-           row.function == "lodestar_environment";
+           row.function == "lodestar_environment" || row.function == "lodestar_specularOfTents";
 }
 
 class Parity : public GlTest {

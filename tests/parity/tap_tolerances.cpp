@@ -96,6 +96,13 @@ Tolerance specularRingTolerance(const GlslCase& p, const glm::dvec4&, int) {
     return meanOfTaps(p, p[0].y > 6.0f ? 7 : 3);
 }
 
+Tolerance specularOfTentsTolerance(const GlslCase& p, const glm::dvec4& v, int specular) {
+    return specular > 3 ? meanOfTaps(p, specular == 4   ? 3
+                                        : specular == 5 ? 7
+                                                        : 16)
+                        : specularTentTolerance(p, v, specular);
+}
+
 Tolerance specularTapsTolerance(const GlslCase& p, const glm::dvec4&, int) {
     return meanOfTaps(p, 16);
 }

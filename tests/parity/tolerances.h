@@ -48,6 +48,7 @@ ToleranceFunction hookTolerance;
 ToleranceFunction specularMipTolerance;
 ToleranceFunction specularTentTolerance;
 ToleranceFunction specularTolerance;
+ToleranceFunction specularOfTentsTolerance;
 ToleranceFunction specularRingTolerance;
 ToleranceFunction specularTapsTolerance;
 ToleranceFunction oneMinusExpTolerance;
