@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// How functions of plans answer.
+// How functions of plans and of OpenGL answer.
 #pragma once
 
 #include <cstring>
 #include <memory>
 #include <new>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "context.h"
@@ -28,6 +30,22 @@ LodestarStatus answered(LodestarContext* context, LodestarPlan plan, const void*
     } catch (...) {
         return LODESTAR_E_STATE;
     }
+}
+
+/// Runs a [gl] function's body on the thread that attached.
+template <class Body>
+LodestarStatus attached(LodestarContext* context, Body&& body) noexcept {
+    if (!lives(context)) {
+        return LODESTAR_E_ARG;
+    }
+    const std::thread::id gl = context->glThread;
+    if (gl == std::thread::id()) {
+        return context->thread == std::this_thread::get_id()
+                   ? context->fail(LODESTAR_E_ARG, "no OpenGL context is attached")
+                   : LODESTAR_E_ARG;
+    }
+    return gl == std::this_thread::get_id() ? guarded(*context, std::forward<Body>(body))
+                                            : LODESTAR_E_THREAD;
 }
 
 /// Structs of the host's size, which its first one says.

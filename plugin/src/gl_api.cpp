@@ -1,26 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // The functions of the extension "lodestar.gl".
-#include "context.h"
+#include "answers.h"
 
 namespace lodestar::plugin {
 namespace {
-
-/// Runs a [gl] function's body on the thread that attached.
-template <class Body>
-LodestarStatus attached(LodestarContext* context, Body&& body) noexcept {
-    if (!lives(context)) {
-        return LODESTAR_E_ARG;
-    }
-    const std::thread::id gl = context->glThread;
-    if (gl == std::thread::id()) {
-        return context->thread == std::this_thread::get_id()
-                   ? context->fail(LODESTAR_E_ARG, "no OpenGL context is attached")
-                   : LODESTAR_E_ARG;
-    }
-    return gl == std::this_thread::get_id() ? guarded(*context, std::forward<Body>(body))
-                                            : LODESTAR_E_THREAD;
-}
 
 LodestarStatus attach(LodestarContext* context, void* (*getProcedure)(const char*)) noexcept {
     if (!lives(context)) {

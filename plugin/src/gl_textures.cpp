@@ -128,6 +128,34 @@ void GlTextures::uploadCube(const Packet::Cube& from, Cube& to, Guard& kept) {
         sizeof(LodestarGlTexture), GL_TEXTURE_CUBE_MAP, to.name, width, width, 6, internal, 0};
 }
 
+/// Cubes of probes that have ended go; those that light the frame are brought up to date.
+void GlTextures::uploadProbes(const ProbePacket& probes, Guard& kept) {
+    std::erase_if(probes_, [&](const ProbeCubes& held) {
+        if (std::find(probes.all.begin(), probes.all.end(), held.of) != probes.all.end()) {
+            return false;
+        }
+        guard(kept);
+        for (const Cube& cube : held.cubes) {
+            kept->forget(cube.name);
+            gl_.deleteTextures(1, &cube.name);
+        }
+        return true;
+    });
+    for (const ProbePacket::Light& light : probes.lights) {
+        if (!light.shines) {
+            continue;
+        }
+        auto held = std::find_if(probes_.begin(), probes_.end(),
+                                 [&](const ProbeCubes& one) { return one.of == light.of; });
+        if (held == probes_.end()) {
+            held = probes_.insert(held, ProbeCubes{light.of, {}});
+        }
+        for (std::size_t k = 0; k < 2; ++k) {
+            uploadCube({light.of, light.version, light.texels[k]}, held->cubes[k], kept);
+        }
+    }
+}
+
 void GlTextures::execute(const Packet& packet) {
     Guard kept; // a frame in which nothing changed makes no GL call
     layOut(packet.layers, kept);
@@ -147,12 +175,19 @@ void GlTextures::execute(const Packet& packet) {
     }
     uploadCube(packet.environment, environment_, kept);
     uploadCube(packet.irradiance, irradiance_, kept);
+    uploadProbes(packet.probes, kept);
 }
 
 void GlTextures::destroy() {
     const GLuint names[] = {arrays_[0], arrays_[1], arrays_[2], environment_.name,
                             irradiance_.name};
     gl_.deleteTextures(5, names); // those that are 0 are passed over
+    for (const ProbeCubes& held : probes_) {
+        for (const Cube& cube : held.cubes) {
+            gl_.deleteTextures(1, &cube.name);
+        }
+    }
+    probes_.clear();
     std::fill(std::begin(arrays_), std::end(arrays_), 0u);
     layers_.clear();
     environment_ = {};
@@ -175,6 +210,17 @@ LodestarGlTexture GlTextures::texture(int texels) const {
             static_cast<std::uint32_t>(layers_.size()),
             static_cast<std::uint32_t>(kind.internal),
             0};
+}
+
+LodestarGlTexture GlTextures::probeTexture(LodestarProbe probe, int texels) const {
+    const auto held = std::find_if(probes_.begin(), probes_.end(),
+                                   [&](const ProbeCubes& one) { return one.of == probe; });
+    LodestarGlTexture answer{};
+    if (held != probes_.end()) {
+        answer = held->cubes[texels == LODESTAR_TEXELS_IRRADIANCE ? 1 : 0].described;
+    }
+    answer.target = GL_TEXTURE_CUBE_MAP;
+    return answer;
 }
 
 int GlTextures::cubeWidth(GLuint name) {

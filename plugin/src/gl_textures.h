@@ -29,6 +29,8 @@ public:
     /// Deletes the textures; the context they are of is current.
     void destroy();
     [[nodiscard]] LodestarGlTexture texture(int texels) const;
+    /// Of a probe; its name is 0 where there is none.
+    [[nodiscard]] LodestarGlTexture probeTexture(LodestarProbe probe, int texels) const;
     /// Face width of a host's cube; 0: it is none.
     [[nodiscard]] int cubeWidth(GLuint name);
     /// Its six faces. @pre cubeWidth is not 0
@@ -42,15 +44,20 @@ private:
     };
     struct Cube {
         GLuint name = 0;
-        LodestarEnvironment of = 0;
-        std::uint64_t version = 0; ///< uploaded
+        LodestarEnvironment of = 0; ///< or a probe
+        std::uint64_t version = 0;  ///< uploaded
         LodestarGlTexture described{};
+    };
+    struct ProbeCubes {
+        LodestarProbe of = 0;
+        Cube cubes[2]; ///< texels, irradiance
     };
     using Guard = std::optional<StateGuard>;
     void guard(Guard& guard);
     void layOut(const std::vector<LodestarLight>& layers, Guard& guard);
     void uploadLayer(int texels, std::size_t layer, const std::vector<std::uint8_t>& bytes);
     void uploadCube(const Packet::Cube& from, Cube& to, Guard& guard);
+    void uploadProbes(const ProbePacket& probes, Guard& guard);
     void count(std::uint64_t uploads, std::uint64_t bytes, std::uint64_t texels);
 
     GlFunctions gl_;
@@ -59,6 +66,7 @@ private:
     GLuint arrays_[3] = {};
     std::vector<Layer> layers_;
     Cube environment_, irradiance_;
+    std::vector<ProbeCubes> probes_;
 };
 
 /// The table of the extension.

@@ -285,7 +285,7 @@ core::Result<std::shared_ptr<const Packet>> makePacket(LodestarContext& context,
         packet.jobs.push_back(context.environments.find(handle)->job(face.face));
         packet.jobs.back().environment = handle;
     }
-    probes.execute(packet.plan, input, packet.probes);
+    probes.execute(packet.plan, input, packet.probes, packet.work);
     packet.work.face_jobs =
         static_cast<std::uint32_t>(packet.jobs.size() + packet.probes.jobs.size());
     if (frame.draws != nullptr) {

@@ -166,7 +166,7 @@ core::Result<DrawBox> boxOf(const LodestarProbeFrame& frame, std::uint32_t i) {
     }
     DrawBox box;
     box.id = draw.id;
-    box.layers = draw.layers != 0 ? draw.layers : 0xffffffffu;
+    box.layers = draw.hidden != 0 ? 0 : draw.layers != 0 ? draw.layers : 0xffffffffu;
     box.share = static_cast<float>(std::clamp(draw.share, 0.0, 1.0));
     box.changed = draw.changed != 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -312,6 +312,18 @@ LodestarStatus cubeTexels(LodestarContext* context, LodestarPlan plan, LodestarP
     });
 }
 
+LodestarStatus probeTexture(LodestarContext* context, LodestarProbe handle, int32_t texels,
+                            LodestarGlTexture* into) noexcept {
+    return attached(context, [&]() -> LodestarStatus {
+        if (handle == 0 || !isCube(texels)) {
+            return context->fail(LODESTAR_E_ARG, "no probe, or no such texels");
+        }
+        return writeStruct(context->gl->probeTexture(handle, texels), into)
+                   ? LODESTAR_OK
+                   : context->fail(LODESTAR_E_ABI, "the texture's struct_size is none");
+    });
+}
+
 constexpr LodestarProbesApi kApi = {sizeof(LodestarProbesApi),
                                     0,
                                     create,
@@ -330,7 +342,8 @@ constexpr LodestarProbesApi kApi = {sizeof(LodestarProbesApi),
                                     drawProbes,
                                     uniforms,
                                     cube,
-                                    cubeTexels};
+                                    cubeTexels,
+                                    probeTexture};
 
 } // namespace
 

@@ -205,7 +205,7 @@ glm::vec3 ProbePlanning::sky(const glm::vec3& direction, int width) const {
     return sum;
 }
 
-void ProbePlanning::work(const plan::EffectPlan& plan) {
+void ProbePlanning::make(const plan::EffectPlan& plan) {
     if (!plan.probeWork.empty()) {
         prepareSky();
     }
@@ -268,12 +268,40 @@ void ProbePlanning::describe(const plan::PlanInput& input, ProbePacket& packet) 
     }
 }
 
+/// Whose light is read, and what of it is new.
+void ProbePlanning::foresee(ProbePacket& packet, LodestarWork& work) {
+    const auto note = [&](const std::vector<LodestarDrawProbes>& draws) {
+        for (const LodestarDrawProbes& draw : draws) {
+            for (std::size_t k = 0; k < 2; ++k) {
+                for (ProbePacket::Light& light : packet.lights) {
+                    light.shines = light.shines || (light.of == draw.probe[k] && draw.dark[k] == 0);
+                }
+            }
+        }
+    };
+    note(packet.drawProbes);
+    std::for_each(packet.jobDraws.begin(), packet.jobDraws.end(), note);
+    for (std::size_t i = 0; i < packet.lights.size(); ++i) {
+        const ProbePacket::Light& light = packet.lights[i];
+        if (!light.shines || !light.texels[0] || light.version == states_[i].shown) {
+            continue;
+        }
+        states_[i].shown = light.version;
+        for (const auto& texels : light.texels) {
+            work.uploads += 6 * texels->levels.size();
+            work.upload_bytes += texels->bytes();
+            work.texels_written += texels->texels();
+        }
+    }
+}
+
 void ProbePlanning::execute(const plan::EffectPlan& plan, const plan::PlanInput& input,
-                            ProbePacket& packet) {
+                            ProbePacket& packet, LodestarWork& work) {
+    packet.all = context_.probeOrder;
     if (!active_) {
         return;
     }
-    work(plan);
+    make(plan);
     askFaces(plan, packet);
     describe(input, packet);
     const std::vector<plan::ProbeDone> done = plan::doneFor(plan, states_.size());
@@ -289,6 +317,7 @@ void ProbePlanning::execute(const plan::EffectPlan& plan, const plan::PlanInput&
             drawProbesOf(plan.drawChoices.empty() ? plan::ProbeChoice{} : plan.drawChoices[i],
                          plan.drawFeatures[i], draw, context_.probeOrder);
     }
+    foresee(packet, work);
 }
 
 void ProbePlanning::keep() noexcept {

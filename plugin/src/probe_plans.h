@@ -52,7 +52,9 @@ struct ProbePacket {
         std::uint64_t version = 0;
         std::shared_ptr<const lighting::CubeTexels> texels[2];
         std::array<glm::vec4, LODESTAR_PROBE_VECTORS> vectors{};
+        bool shines = false; ///< on a draw or a job of the plan
     };
+    std::vector<LodestarProbe> all; ///< probes that there are, in a plan without boxes too
     std::vector<Light> lights;
     std::vector<LodestarProbeJob> jobs;
     std::vector<std::vector<LodestarDrawProbes>> jobDraws;
@@ -69,17 +71,20 @@ public:
     ProbePlanning(LodestarContext& context, const std::vector<lighting::DayMoment>& moments,
                   plan::PlanInput& input);
 
-    /// Makes what the plan asks for.
-    void execute(const plan::EffectPlan& plan, const plan::PlanInput& input, ProbePacket& packet);
+    /// Makes what the plan asks for. @param work that executing it will do, to which uploads are
+    /// added
+    void execute(const plan::EffectPlan& plan, const plan::PlanInput& input, ProbePacket& packet,
+                 LodestarWork& work);
     /// The context holds it from here on.
     void keep() noexcept;
 
 private:
     void markMoved(const plan::PlanInput& input);
-    void work(const plan::EffectPlan& plan);
+    void make(const plan::EffectPlan& plan);
     [[nodiscard]] glm::vec3 sky(const glm::vec3& direction, int width) const;
     void prepareSky();
     void describe(const plan::PlanInput& input, ProbePacket& packet) const;
+    void foresee(ProbePacket& packet, LodestarWork& work);
     void askFaces(const plan::EffectPlan& plan, ProbePacket& packet);
 
     LodestarContext& context_;

@@ -302,9 +302,9 @@ void compose(ProbeState& state, const SkyRadiance& sky, int fadeLeft, int lastLe
                                                face, (static_cast<float>(x) + 0.5f) * step - 1.0f,
                                                (static_cast<float>(y) + 0.5f) * step - 1.0f)));
                 }
-                base.texel(face, x, y) = share < 1.0f ? glm::mix(state.lit->texel(face, x, y),
-                                                                 glm::vec4(sum, 1.0f), share)
-                                                      : glm::vec4(sum, 1.0f);
+                const glm::vec4 now(sum, texel.a); // suns shine through what is not covered
+                base.texel(face, x, y) =
+                    share < 1.0f ? glm::mix(state.lit->texel(face, x, y), now, share) : now;
             }
         }
     }

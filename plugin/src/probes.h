@@ -32,7 +32,8 @@ struct ProbeState {
     std::shared_ptr<const lighting::Cubemap> lit;          ///< the sky behind it, with tent mips
     std::shared_ptr<const lighting::CubeTexels> texels[2]; ///< of lit; of its irradiance
     std::uint64_t version = 0;                             ///< of lit
-    int lastLevel = 0;                                     ///< of lit, that lookups read
+    std::uint64_t shown = 0; ///< the version that a plan's draws or jobs were last lit by
+    int lastLevel = 0;       ///< of lit, that lookups read
 };
 
 class PlacedProbe {

@@ -26,6 +26,7 @@
 
 #include "plugin/uniforms.glsl"
 #include "lodestar/environment.glsl"
+#include "lodestar/probes.glsl"
 #include "lodestar/rsrm.glsl"
 
 uniform samplerCube lodestar_environmentTexels;
@@ -87,10 +88,11 @@ vec3 lodestar_host_rsrmGradient(float u2, int layer) {
 }
 
 #if LODESTAR_WITH_HOST_VISIBILITY
-/// How much of a light the host's shadows let through, [0, 1]. @param light its place in the plan
+/// How much of a light the host's shadows let through, [0, 1]; below 0: it casts none there, and light
+/// probes hold it back. @param light its place in the plan
 float lodestar_host_visibility(int light);
 #else
-float lodestar_host_visibility(int light) { return 1.0; }
+float lodestar_host_visibility(int light) { return -1.0; }
 #endif
 
 LodestarRsrm lodestar_lightMap(int light) {
@@ -112,15 +114,28 @@ bool lodestar_isSky(int light) {
     return ((bits >> uint(light & 15)) & 1u) != 0u;
 }
 
+/// What of a light shines on a point: a sky where no probe stands before it, a sun by the host's shadows
+/// or, without, by what probes see of it.
+float lodestar_lightShare(int light, vec3 axis, LodestarShares shares) {
+    float visible = lodestar_host_visibility(light);
+    if (lodestar_isSky(light)) {
+        return (visible < 0.0 ? 1.0 : visible) * shares.environment;
+    }
+#if LODESTAR_WITH_PROBES > 0
+    return visible < 0.0 ? lodestar_sunShare(shares, axis) : visible;
+#else
+    return visible < 0.0 ? 1.0 : visible;
+#endif
+}
+
 /// Radiance of the skies and suns, reflected towards the viewer.
-/// @param open the share of the skies that no probe stands before, [0, 1]
-vec3 lodestar_lightsReflected(LodestarSurface here, float open) {
+vec3 lodestar_lightsReflected(LodestarSurface here, LodestarShares shares) {
     LodestarLookup lookup = lodestar_lookup(here.normal, here.view, here.exponent);
     vec3 lambert = vec3(0.0);
     vec3 glossy = vec3(0.0);
     for (int i = 0; i < int(lodestar_counts.x); ++i) {
         LodestarRsrm map = lodestar_lightMap(i);
-        float visible = lodestar_host_visibility(i) * (lodestar_isSky(i) ? open : 1.0);
+        float visible = lodestar_lightShare(i, map.axis, shares);
         lambert += visible * lodestar_rsrmLambert(map, here.normal);
         glossy += visible * lodestar_rsrm(map, lookup.direction, lodestar_rsrmRow(map, lookup.exponent));
     }
@@ -137,17 +152,16 @@ LodestarCube lodestar_distantCube() {
 }
 
 /// Radiance of the environment, the skies and suns, reflected towards the viewer.
-/// @param open the share of the environment and the skies, [0, 1]
-vec3 lodestar_distantLighting(LodestarSurface here, float open, vec3 reflectionDx, vec3 reflectionDy) {
+vec3 lodestar_distantLighting(LodestarSurface here, LodestarShares shares, vec3 reflectionDx, vec3 reflectionDy) {
     vec3 radiance = vec3(0.0);
 #if LODESTAR_WITH_ENVIRONMENT
     if (lodestar_counts.y > 0.0) {
-        radiance += open * lodestar_environment(lodestar_distantCube(), here, reflectionDx, reflectionDy);
+        radiance += shares.environment * lodestar_environment(lodestar_distantCube(), here, reflectionDx, reflectionDy);
     }
 #endif
 #if LODESTAR_WITH_LIGHTS
     if (lodestar_counts.x > 0.0) {
-        radiance += lodestar_lightsReflected(here, open);
+        radiance += lodestar_lightsReflected(here, shares);
     }
 #endif
     return radiance;
@@ -157,7 +171,7 @@ vec3 lodestar_distantLighting(LodestarSurface here, float open, vec3 reflectionD
 /// @param reflectionDx, reflectionDy screen derivatives of 2 (n.v) n - v; 0 where there are none, in
 /// a deferred pass say: then mirrors of fine environments may alias
 vec3 lodestar_lighting(LodestarSurface here, vec3 reflectionDx, vec3 reflectionDy) {
-    return lodestar_distantLighting(here, 1.0, reflectionDx, reflectionDy);
+    return lodestar_distantLighting(here, LodestarShares(0.0, 0.0, 1.0), reflectionDx, reflectionDy);
 }
 
 /// Radiance of all light, reflected towards the viewer. With probes it takes screen derivatives.
@@ -166,7 +180,7 @@ vec3 lodestar_lightingAt(LodestarSurface here, vec3 world, vec3 reflectionDx, ve
 #if LODESTAR_WITH_PROBES > 0
     LodestarShares shares = lodestar_sharesAt(world);
     return lodestar_probesReflected(here, world, shares) +
-           lodestar_distantLighting(here, shares.environment, reflectionDx, reflectionDy);
+           lodestar_distantLighting(here, shares, reflectionDx, reflectionDy);
 #else
     return lodestar_lighting(here, reflectionDx, reflectionDy);
 #endif

@@ -80,6 +80,34 @@ vec3 lodestar_probeReflected(int k, LodestarSurface here, float exponent, vec3 d
     return light.rgb * lodestar_reflected(here, lambert, glossy);
 }
 
+/// How much of a sun a probe sees from where it captured: what its geometry leaves open.
+float lodestar_probeSeesSun(int k, vec3 axis) {
+    if (lodestar_probeVector(k, 10).w <= 0.0 || dot(lodestar_probeVector(k, 11).rgb, vec3(1.0)) <= 0.0) {
+        return 0.0; // it holds nothing, or keeps the sky out alone
+    }
+#if LODESTAR_WITH_PROBES > 1
+    if (k == 1) {
+        return 1.0 - clamp(textureLod(lodestar_probeTexels1, axis, 0.0).a, 0.0, 1.0);
+    }
+#endif
+    return 1.0 - clamp(textureLod(lodestar_probeTexels0, axis, 0.0).a, 0.0, 1.0);
+}
+
+/// What probes let through of a sun that casts no shadow: all outside them, inside what they see of it.
+/// @param axis unit, towards it
+float lodestar_sunShare(LodestarShares shares, vec3 axis) {
+    float share = shares.environment;
+    if (shares.first > 0.0) {
+        share += shares.first * lodestar_probeSeesSun(0, axis);
+    }
+#if LODESTAR_WITH_PROBES > 1
+    if (shares.second > 0.0) {
+        share += shares.second * lodestar_probeSeesSun(1, axis);
+    }
+#endif
+    return share;
+}
+
 /// The two probes' light, reflected towards the viewer, by their shares. Screen derivatives are taken here: it is to
 /// be called where all of a surface's neighbours are.
 vec3 lodestar_probesReflected(LodestarSurface here, vec3 world, LodestarShares shares) {

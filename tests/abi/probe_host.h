@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "host.h"
+#include <gtest/gtest.h>
+
 #include "lodestar/lodestar_probes.h"
 
 namespace lodestar::testing {
@@ -27,10 +28,14 @@ inline LodestarProbeDesc probeDesc(double size = 4.0) {
     return desc;
 }
 
-class AbiProbes : public AbiHost {
+/// @tparam Base a fixture with a table and a context
+template <class Base>
+class ProbeHost : public Base {
 protected:
+    using Base::api;
+    using Base::context;
     void SetUp() override {
-        AbiHost::SetUp();
+        Base::SetUp();
         probes =
             static_cast<const LodestarProbesApi*>(api.get_extension(LODESTAR_EXTENSION_PROBES));
         ASSERT_NE(probes, nullptr);

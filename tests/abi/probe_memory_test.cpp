@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
 // Memory that runs out in the middle of a probe's life; the header in C.
+#include "host.h"
 #include "probe_host.h"
 
 extern "C" size_t lodestar_test_sizesInC(size_t* frame, size_t* draw, size_t* job, size_t* pair);
 
 namespace lodestar::testing {
 namespace {
+
+using AbiProbes = ProbeHost<AbiHost>;
 
 TEST(AbiProbesHeader, IsTheSameInC) {
     std::size_t frame = 0, draw = 0, job = 0, pair = 0;

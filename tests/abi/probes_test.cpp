@@ -10,12 +10,15 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/mat4x4.hpp>
 
+#include "host.h"
 #include "lodestar/cube.glsl"
 #include "plan/probe_plan.h"
 #include "probe_host.h"
 
 namespace lodestar::testing {
 namespace {
+
+using AbiProbes = ProbeHost<AbiHost>;
 
 TEST_F(AbiProbes, BadDescriptionsAreRefused) {
     LodestarProbe probe = 0;
@@ -187,6 +190,28 @@ TEST_F(AbiProbes, WhatMovesIsDrawnAgain) {
     EXPECT_EQ(jobs(planned()).size(), 0u) << "the face is awaited, then drawn again";
 }
 
+// A capture draws what shares a layer with it and is not hidden.
+TEST_F(AbiProbes, LayersKeepThingsOutOfFaces) {
+    LodestarProbeDesc desc = probeDesc();
+    desc.layers = 2;
+    const LodestarProbe probe = create(desc);
+    addBox({1, -0.5, -0.5}, {2, 0.5, 0.5});
+    const auto asked = [&](std::uint32_t layers, std::uint32_t hidden) {
+        boxes[1].layers = layers;
+        boxes[1].hidden = hidden;
+        EXPECT_EQ(probes->probe_request(context, probe), LODESTAR_OK);
+        const LodestarPlan plan = planAndDraw({1, 1, 1, 1});
+        const auto six = jobs(plan);
+        EXPECT_EQ(six.size(), 6u);
+        planned();                                   // the round is published
+        return six.empty() ? 0u : six[0].draw_count; // +X
+    };
+    EXPECT_EQ(asked(0, 0), 2u) << "0 is all";
+    EXPECT_EQ(asked(6, 0), 2u);
+    EXPECT_EQ(asked(5, 0), 1u);
+    EXPECT_EQ(asked(6, 1), 1u);
+}
+
 // The cameras of the six faces see the six directions of a cube as OpenGL has it.
 TEST_F(AbiProbes, JobsSeeTheFaces) {
     LodestarProbeDesc desc = probeDesc();
@@ -245,6 +270,15 @@ protected:
         }
         return most;
     }
+    /// How much of the first direction is covered.
+    float covered(LodestarPlan plan, LodestarProbe probe) {
+        std::size_t size = std::size_t{6} * 16 * 16 * 8;
+        std::vector<std::uint8_t> bytes(size);
+        EXPECT_EQ(probes->plan_probe_texels(context, plan, probe, LODESTAR_TEXELS_ENVIRONMENT, 0,
+                                            bytes.data(), &size),
+                  LODESTAR_OK);
+        return firstHalf(bytes, 3);
+    }
 };
 
 // Half covered by 0.25 under a sky of 2: everywhere 0.25 + 2 / 2, in all levels and the irradiance.
@@ -259,6 +293,7 @@ TEST_F(AbiProbeLight, TheSkyStandsBehindWhatIsCovered) {
     EXPECT_LT(worst(plan, probe, LODESTAR_TEXELS_ENVIRONMENT, wanted), kHalf);
     EXPECT_LT(worst(plan, probe, LODESTAR_TEXELS_IRRADIANCE, wanted), kHalf);
     EXPECT_EQ(cube(plan, probe, LODESTAR_TEXELS_IRRADIANCE).width, 16u);
+    EXPECT_EQ(covered(plan, probe), 0.5f) << "what suns shine through";
     setSky("constant:2,1.05,0.5"); // too little for another capture
     plan = planned();
     EXPECT_TRUE(jobs(plan).empty());
@@ -300,6 +335,7 @@ TEST_F(AbiProbeLight, ItHoldsAnEnvironmentsLight) {
     EXPECT_TRUE(jobs(plan).empty());
     EXPECT_EQ(draws(plan)[0].probe[0], probe);
     EXPECT_EQ(cube(plan, probe).width, 8u);
+    EXPECT_EQ(covered(plan, probe), 1.0f) << "no sun shines through a file's light";
     EXPECT_LT(worst(plan, probe, LODESTAR_TEXELS_ENVIRONMENT, {3, 2, 1}), 5e-3);
 }
 

@@ -19,9 +19,11 @@ namespace {
 
 /// What a room holds.
 struct Room {
-    bool window = true; ///< the wall towards +Z is left out
-    bool mirror = true; ///< a panel on the back wall
-    bool ball = false;  ///< polished, not quite a mirror
+    bool window = true;               ///< the wall towards +Z is left out
+    bool mirror = true;               ///< a panel on the back wall
+    bool ball = false;                ///< polished, not quite a mirror
+    glm::vec3 at{0.0f, 0.75f, -0.5f}; ///< the ball's centre
+    unsigned layers = 0xffffffff;     ///< of the ball
 };
 
 /// A room of 4 x 3 x 4 metres.
@@ -54,9 +56,11 @@ std::string room(const TemporaryFolder& folder, const Room& with) {
         box({-1.0f, 0.5f, -2.0f}, {1.0f, 2.5f, -1.9375f}, polished(0.6, 1e6));
     }
     if (with.ball) {
-        file.show(
-            {file.primitive(sphere(48, 96), polished(0.5, 300))},
-            {{"name", "ball"}, {"translation", {0, 0.75, -0.5}}, {"scale", {0.75, 0.75, 0.75}}});
+        file.show({file.primitive(sphere(48, 96), polished(0.5, 300))},
+                  {{"name", "ball"},
+                   {"translation", {with.at.x, with.at.y, with.at.z}},
+                   {"scale", {0.75, 0.75, 0.75}},
+                   {"extras", {{"lodestar", {{"layers", with.layers}}}}}});
     }
     return file.write(folder).string();
 }
@@ -114,28 +118,55 @@ TEST(OsgProbes, ARoomIsLitAsOurs) {
     EXPECT_FALSE(near(byOsg(folder, scene, lighting(far, elsewhere)), own, "captured elsewhere"));
 }
 
+/// One light, of the document's form, and a probe of the room; empty: none.
+std::string under(const TemporaryFolder& folder, const std::string& light,
+                  const std::string& probe) {
+    return folder
+        .write("sky.lodestar.json",
+               R"({"lodestar": 1, "probes": [)" + probe + R"(], "lights": [)" + light + "]}")
+        .string();
+}
+
+float brightest(const core::Image& picture) {
+    float most = 0.0f;
+    for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x) {
+            most = std::max(most, picture.at(x, y)[0]);
+        }
+    }
+    return most;
+}
+
 // From its first picture on: no sky on its walls, and none in its faces.
 TEST(OsgProbes, AClosedRoomKeepsTheSkyOut) {
+    constexpr const char* kSky = R"({"kind": "sky", "keys": [{"hour": 12, "gradient": {"stops": [
+        {"at": 90, "color": [1, 1, 1]}, {"at": -90, "color": [1, 1, 1]}]}}]})";
     const TemporaryFolder folder, open;
     const std::string scene = room(folder, {.window = false});
-    const auto under = [&](const TemporaryFolder& at, const std::string& probe) {
-        return at
-            .write("sky.lodestar.json", R"({"lodestar": 1, "probes": [)" + probe + R"(], "lights": [
-                {"kind": "sky", "keys": [{"hour": 12, "gradient": {"stops": [
-                {"at": 90, "color": [1, 1, 1]}, {"at": -90, "color": [1, 1, 1]}]}}]}]})")
-            .string();
-    };
-    const auto brightest = [](const core::Image& picture) {
-        float most = 0.0f;
-        for (int y = 0; y < picture.height(); ++y) {
-            for (int x = 0; x < picture.width(); ++x) {
-                most = std::max(most, picture.at(x, y)[0]);
-            }
-        }
-        return most;
-    };
-    EXPECT_LE(brightest(byOsg(folder, scene, under(folder, kRoom))), 1.0f / 255.0f);
-    EXPECT_GT(brightest(byOsg(folder, scene, under(open, ""))), 0.4f);
+    EXPECT_LE(brightest(byOsg(folder, scene, under(folder, kSky, kRoom))), 1.0f / 255.0f);
+    EXPECT_GT(brightest(byOsg(folder, scene, under(open, kSky, ""))), 0.4f);
+}
+
+/// A sun without shadows, two degrees wide. @param axis three numbers
+std::string sun(const std::string& axis) {
+    return R"({"kind": "sun", "visibility": false, "axis": [)" + axis +
+           R"(], "keys": [{"hour": 12, "gradient": {"stops": [{"at": 0, "color": [3000, 3000, 3000]},
+           {"at": 1, "color": [3000, 3000, 3000]}, {"at": 1, "color": [0, 0, 0]}]}}]})";
+}
+
+// A sun that casts no shadow is let through by what the probe sees of it: nothing in a closed room,
+// through a window as the built-in renderer's.
+TEST(OsgProbes, SunsWithoutShadowsAreHeldBack) {
+    const TemporaryFolder folder, open, window;
+    const std::string above = sun("0.2, 0.5, 1");
+    const std::string scene = room(folder, {.window = false});
+    EXPECT_LE(brightest(byOsg(folder, scene, under(folder, above, kRoom))), 1.0f / 255.0f);
+    EXPECT_GT(brightest(byOsg(folder, scene, under(open, above, ""))), 0.4f);
+    const std::string lit = room(window, {});
+    for (const char* axis : {"0.2, 0.5, 1", "0.1, 0.3, -1"}) {
+        const std::string light = under(window, sun(axis), kRoom);
+        EXPECT_TRUE(near(byOsg(window, lit, light), byUs(window, lit, light), axis));
+    }
 }
 
 /// Moves a node after some updates.
@@ -152,12 +183,18 @@ struct Jump : osg::NodeCallback {
 };
 
 /// Two balls under a sky, the golden one with a probe of its own; at last it is at (1.2, 0, 0.4).
-osg::ref_ptr<osg::Image> carried(bool jumps, const char* probe) {
+/// @param mask, inner of the red ball's node and of the one below it
+osg::ref_ptr<osg::Image> carried(bool jumps, const char* probe, unsigned mask = ~0u,
+                                 unsigned inner = ~0u) {
     osg::ref_ptr<osghost::Lighting> node = new osghost::Lighting;
     std::string document = kDay;
     document.insert(document.find("\"lights\""), std::string("\"probes\": [") + probe + "], ");
     node->setDocument(document);
-    node->addChild(ball({-1.1f, 0, 0}, 1.0f, {.diffuse = {0.7f, 0.2f, 0.1f}}));
+    const osg::ref_ptr<osg::MatrixTransform> red =
+        ball({-1.1f, 0, 0}, 1.0f, {.diffuse = {0.7f, 0.2f, 0.1f}});
+    red->setNodeMask(mask);
+    red->getChild(0)->setNodeMask(inner);
+    node->addChild(red);
     const osg::Vec3 last(1.2f, 0.0f, 0.4f);
     osg::ref_ptr<osg::MatrixTransform> golden =
         ball(jumps ? osg::Vec3(1.6f, 0.5f, -0.5f) : last, 0.9f,

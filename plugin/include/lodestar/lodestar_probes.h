@@ -12,14 +12,16 @@
  *     api.plan_make(context, &frame, &plan);           // max_faces: how many may be drawn
  *     probes->plan_probe_jobs(context, plan, ...)      // draw these, with what plan_job_draws says
  *     probes->plan_draw_probes(context, plan, ...)     // the two probes of each draw
- *     probes->plan_probe_uniforms, plan_probe_cube and plan_probe_texels for what they need
+ *     probes->plan_probe_uniforms for what they need; the texels by plan_probe_cube and
+ *     plan_probe_texels, or by `execute` of the extension "lodestar.gl" and probe_texture
  *     The shading text is lodestar.h's, LODESTAR_WITH_PROBES of it 1 or 2.
  *
  * Faces come when the host has drawn them: in the same frame or some frames later. A probe shows
  * what it did before, or nothing, until all faces of a round are there; the first plan after that
  * publishes them together. What the faces do not cover shows the distant environment and the skies,
  * which the library puts behind them, and puts there anew when they change, without a job. Suns are
- * no part of a probe: they light by themselves.
+ * no part of a probe: they light by themselves, times the host's shadow; one that casts none is let
+ * through by how much of its direction the faces leave open.
  */
 #ifndef LODESTAR_PROBES_H
 #define LODESTAR_PROBES_H
@@ -83,7 +85,7 @@ typedef struct LodestarProbeDraw {
     double low[3], high[3]; /* world box about it, finite, low <= high */
     double share;           /* of the picture that it may cover, [0, 1]; 0 where it is not known */
     uint32_t changed;       /* 1: it looks otherwise than in the frame before */
-    uint32_t reserved;
+    uint32_t hidden;        /* 1: no probe captures it, whatever the layers */
 } LodestarProbeDraw;
 
 /* The draws of the next plan, in the order of LodestarFrame.draws; where those are null, these are
@@ -186,13 +188,20 @@ typedef struct LodestarProbesApi {
     /* [any] The uniforms of a draw: LODESTAR_PROBE_UNIFORMS vectors. */
     LodestarStatus (*plan_probe_uniforms)(LodestarContext*, LodestarPlan, const LodestarDrawProbes*,
                                           float*);
-    /* [any] A probe's light in a plan. version 0: it has none.
+    /* [any] A probe's light in a plan. version 0: it has none. The alpha of its environment's
+     * texels is how much of a direction the faces cover.
      * @param texels LODESTAR_TEXELS_ENVIRONMENT, _IRRADIANCE */
     LodestarStatus (*plan_probe_cube)(LodestarContext*, LodestarPlan, LodestarProbe, int32_t texels,
                                       LodestarCube*);
     /* [any] A two-call query in bytes. */
     LodestarStatus (*plan_probe_texels)(LodestarContext*, LodestarPlan, LodestarProbe,
                                         int32_t texels, uint32_t level, void* buffer, size_t* size);
+    /* [gl] The same as a texture, as the last plan left it that `execute` of the extension
+     * "lodestar.gl" was given; that uploads what the plan's draws and jobs are lit by. The name
+     * stays until the probe ends; 0: nothing has been lit by it. Read seamlessly.
+     * @param texels LODESTAR_TEXELS_ENVIRONMENT, _IRRADIANCE */
+    LodestarStatus (*probe_texture)(LodestarContext*, LodestarProbe, int32_t texels,
+                                    LodestarGlTexture*);
 } LodestarProbesApi;
 
 #ifdef __cplusplus
