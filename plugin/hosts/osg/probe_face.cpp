@@ -58,6 +58,9 @@ ProbeFace::ProbeFace(unsigned width, Cull cull)
     setClearMask(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     setComputeNearFarMode(DO_NOT_COMPUTE_NEAR_FAR);
     setCullingActive(false);
+    setCullMask(
+        ~osg::Node::NodeMask{0}); // layers are the plan's, whatever the picture's camera sees
+    setInheritanceMask(getInheritanceMask() & ~osg::CullSettings::CULL_MASK);
     setDataVariance(DYNAMIC);
     texture_->setTextureSize(side, side);
     texture_->setInternalFormat(GL_RGBA32F_ARB);

@@ -158,6 +158,8 @@ LodestarStatus Probes::prepare(const osg::NodePath& path) {
     for (std::size_t i = 0; i < draws_.size(); ++i) {
         boxes[i].struct_size = sizeof boxes[i];
         boxes[i].id = draws_[i].id;
+        boxes[i].layers = draws_[i].layers;
+        boxes[i].hidden = draws_[i].layers == 0 ? 1 : 0;
         for (int axis = 0; axis < 3; ++axis) {
             boxes[i].low[axis] = draws_[i].box._min[axis];
             boxes[i].high[axis] = draws_[i].box._max[axis];

@@ -61,6 +61,20 @@ osg::Matrixd matrixOf(const io::GltfNode& node) {
     return osg::Matrixd(glm::value_ptr(m)); // both lie column after column for column vectors
 }
 
+/// Layers of captures are node masks. What no capture is to see has two that share no bit, and is
+/// seen by cameras of a whole mask yet.
+osg::ref_ptr<osg::Node> withLayers(osg::Node& node, std::uint32_t layers) {
+    if (layers != 0) {
+        node.setNodeMask(layers);
+        return &node;
+    }
+    osg::ref_ptr<osg::Group> outer = new osg::Group;
+    outer->setNodeMask(1u);
+    node.setNodeMask(~1u);
+    outer->addChild(&node);
+    return outer;
+}
+
 osg::ref_ptr<osg::Node> nodeOf(const io::GltfFile& file, int index, const hosts::LitContext& lit) {
     const io::GltfNode& node = file.nodes[static_cast<std::size_t>(index)];
     osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(matrixOf(node));
@@ -78,7 +92,7 @@ osg::ref_ptr<osg::Node> nodeOf(const io::GltfFile& file, int index, const hosts:
             }
             geode->addDrawable(geometry);
         }
-        transform->addChild(geode);
+        transform->addChild(withLayers(*geode, node.layers));
     }
     for (const int child : node.children) {
         const osg::ref_ptr<osg::Node> made = nodeOf(file, child, lit);

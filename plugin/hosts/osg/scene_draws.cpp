@@ -49,7 +49,8 @@ public:
         if (!box.valid()) {
             return;
         }
-        SceneDraw draw{&drawable, world_, folded(path_, &drawable), placed(box, world_), material_};
+        SceneDraw draw{&drawable,           world_,    folded(path_, &drawable),
+                       placed(box, world_), material_, layers_ & drawable.getNodeMask()};
         if (const osg::StateSet* own = drawable.getStateSet()) {
             draw.material = materialOf(*own).value_or(material_);
         }
@@ -74,19 +75,23 @@ private:
         const osg::Matrixd outer = world_;
         const std::uint64_t path = path_;
         const Material material = material_;
+        const osg::Node::NodeMask layers = layers_;
         if (const osg::StateSet* own = node.getStateSet()) {
             material_ = materialOf(*own).value_or(material_);
         }
         world_ = world;
         path_ = folded(path, &node);
+        layers_ &= node.getNodeMask();
         traverse(node);
         world_ = outer;
         path_ = path;
         material_ = material;
+        layers_ = layers;
     }
 
     osg::Matrixd world_;
     Material material_; // white, as Lighting has it
+    osg::Node::NodeMask layers_ = ~osg::Node::NodeMask{0};
     std::uint64_t path_ = 14695981039346656037ull;
     std::unordered_set<std::uint64_t> ids_;
 };

@@ -24,6 +24,8 @@ struct SceneDraw {
     std::uint64_t id = 0;  ///< the same as long as it is at the same nodes
     osg::BoundingBoxd box; ///< in the world, finite
     Material material;     ///< white where none is set
+    /// Bits that the masks of all nodes down to it have in common.
+    osg::Node::NodeMask layers = ~osg::Node::NodeMask{0};
 };
 
 struct SceneDraws {
