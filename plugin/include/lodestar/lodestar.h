@@ -340,8 +340,9 @@ typedef struct LodestarGlApi {
     /* Deletes the textures; with alive 0 the context is lost and they are forgotten. To be called
      * before context_destroy, which makes no GL call. */
     LodestarStatus (*detach)(LodestarContext*, int32_t alive);
-    /* Uploads what a plan shows and the textures do not hold yet: a frame in which nothing changed
-     * makes no GL call. Plans may be left out. Names stay until lights are made or end. */
+    /* Uploads what a plan shows, light probes too (lodestar_probes.h), and the textures do not hold
+     * yet: a frame in which nothing changed makes no GL call. Plans may be left out. Names stay
+     * until lights are made or end. */
     LodestarStatus (*execute)(LodestarContext*, LodestarPlan);
     /* A texture as the last executed plan left it. Cubes are made to be read seamlessly: the host
      * enables GL_TEXTURE_CUBE_MAP_SEAMLESS. @param texels LODESTAR_TEXELS_* */
