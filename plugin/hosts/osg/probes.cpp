@@ -411,6 +411,9 @@ void Probes::releaseGLObjects(osg::State* state) const {
     for (const auto* faces : {&waiting_, &idle_}) {
         for (const osg::ref_ptr<ProbeFace>& face : *faces) {
             face->releaseGLObjects(state);
+            // OpenSceneGraph's cache of render stages locks itself, then the cull visitors that it
+            // watches; one that ends locks these the other way round. Without the cache none does.
+            face->setRenderingCache(nullptr);
         }
     }
     faceState_->releaseGLObjects(state);
