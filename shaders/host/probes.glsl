@@ -60,7 +60,7 @@ vec3 probeRadiance(int slot, LodestarSurface surface, LodestarLookup lookup, vec
     vec3 glossy = lodestar_specularOfTents(cube, direction, lookup.exponent, footprint);
     vec2 at = (tile + lodestar_irradianceTexel(surface.normal)) / vec2(textureSize(uProbeIrradiance, 0));
     vec3 lambert = textureLod(uProbeIrradiance, at, 0.0).rgb;
-    glossy = mix(glossy, lambert, max(1.0 - lodestar_repairExponent(surface.exponent), 0.0));
+    glossy = lodestar_mix(glossy, lambert, max(1.0 - lodestar_repairExponent(surface.exponent), 0.0));
     return light.rgb * lodestar_reflected(surface, lambert, glossy);
 }
 

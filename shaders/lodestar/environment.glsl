@@ -223,8 +223,8 @@ LODESTAR_FN vec3 lodestar_environment(LodestarCube cube, LodestarSurface surface
     vec3 lambert = lodestar_host_irradiance(cube.slot, surface.normal);
 #if LODESTAR_SPECULAR >= LODESTAR_SPECULAR_TENT
     // At exponent 0 the lobe is Lambert's, whose light is at hand already and better than any mip's.
-    glossy = mix(glossy, lambert,
-                 max(1.0f - lodestar_repairExponent(surface.exponent), Real(0.0f)));
+    glossy = lodestar_mix(glossy, lambert,
+                          max(1.0f - lodestar_repairExponent(surface.exponent), Real(0.0f)));
 #endif
     return lodestar_reflected(surface, lambert, glossy);
 }

@@ -44,6 +44,13 @@ LODESTAR_FN Real lodestar_cosinePowerBetween(vec3 a, vec3 b, Real s) {
     return lodestar_cosinePowerFromChord(0.5f * dot(chord, chord), s);
 }
 
+/// (1 - t) a + t b of radiances, a few roundings of itself off. GLSL's mix need not be, nor that
+/// expression: drivers make a + t (b - a) of both, where t = 1 leaves nothing of b = 1 beside a = 1e8.
+/// Written from the nearer end it holds in every order. @param t [0, 1]
+LODESTAR_FN vec3 lodestar_mix(vec3 a, vec3 b, Real t) {
+    return t < 0.5f ? a + t * (b - a) : b + (1.0f - t) * (a - b);
+}
+
 /// A vector made unit, or the fallback where its length is 0 or not finite.
 LODESTAR_FN vec3 lodestar_safeNormalize(vec3 v, vec3 fallback) {
     Real lengthSquared = dot(v, v);

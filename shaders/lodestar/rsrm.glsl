@@ -149,8 +149,8 @@ LODESTAR_FN vec3 lodestar_rsrm(LodestarRsrm map, vec3 r, Real row) {
         lodestar_rsrmDecode(lodestar_host_rsrm(column, min(row, last), map.layer), map.layoutName);
 #if LODESTAR_RSRM_MIRROR
     if (row > last) {
-        return mix(filtered, lodestar_host_rsrmGradient(lodestar_rsrmRefinedColumn(h), map.layer),
-                   row - last);
+        return lodestar_mix(
+            filtered, lodestar_host_rsrmGradient(lodestar_rsrmRefinedColumn(h), map.layer), row - last);
     }
 #endif
     return filtered;

@@ -76,7 +76,7 @@ vec3 lodestar_probeReflected(int k, LodestarSurface here, float exponent, vec3 d
     float footprint = lodestar_footprintLevel(direction, dx, dy, cube.width);
     vec3 glossy = lodestar_specularOfTents(cube, direction, exponent, footprint);
     vec3 lambert = lodestar_host_irradiance(cube.slot, here.normal);
-    glossy = mix(glossy, lambert, max(1.0 - lodestar_repairExponent(here.exponent), 0.0));
+    glossy = lodestar_mix(glossy, lambert, max(1.0 - lodestar_repairExponent(here.exponent), 0.0));
     return light.rgb * lodestar_reflected(here, lambert, glossy);
 }
 

@@ -213,6 +213,24 @@ std::vector<GlslCase> vectorPairCases() {
     return cases;
 }
 
+std::vector<GlslCase> mixCases() {
+    std::vector<GlslCase> cases;
+    Draw draw(18u);
+    const auto radiance = [&] {
+        return glm::vec3(draw.logarithmic(1e-6f, 1e9f), draw.logarithmic(1e-6f, 1e9f), 0.0f);
+    };
+    for (int i = 0; i < kDrawn; ++i) {
+        GlslCase inputs{};
+        inputs[0] = glm::vec4(radiance(), static_cast<float>(i % 3) * 0.5f);
+        inputs[1] = glm::vec4(radiance(), 0.0f);
+        if (i % 2 == 0) {
+            inputs[0].w = draw.uniform(0, 1);
+        }
+        cases.push_back(inputs);
+    }
+    return cases;
+}
+
 std::vector<GlslCase> anyVectorCases() {
     return vectors({{0, 0, 0},
                     {-0.0f, 0, 0},

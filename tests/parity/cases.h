@@ -19,6 +19,7 @@ std::vector<GlslCase> cosineAndExponentCases(); ///< cosine [-1, 1.0000001], exp
 std::vector<GlslCase> exponentAndUnitCases();   ///< any exponent, x in [0, 1]
 std::vector<GlslCase> chordCases();             ///< d in [0, 2], exponent [0, 1e7]
 std::vector<GlslCase> vectorPairCases();        ///< p0.xyz, p1.xyz unit, exponent p0.w
+std::vector<GlslCase> mixCases();               ///< p0.xyz, p1.xyz radiance, t p0.w
 std::vector<GlslCase> anyVectorCases();         ///< p0.xyz any vector, p1.xyz a fallback
 std::vector<GlslCase> moderateVectorCases();    ///< the same, squares below overflow
 std::vector<GlslCase> faceCases();              ///< face, u, v

@@ -169,6 +169,11 @@ Tolerance betweenTolerance(const GlslCase& p, const glm::dvec4& v, int) {
     return same(chordError(v.x, d, static_cast<double>(p[0].w), 4.0 * u * d));
 }
 
+Tolerance mixTolerance(const GlslCase&, const glm::dvec4& v, int) {
+    // A difference and a product, half a unit each of at most the value, and the sum.
+    return relative(v, 2.0);
+}
+
 Tolerance normalizeTolerance(const GlslCase&, const glm::dvec4&, int) {
     return same(5.0 * u); // squares and sums 3 (halved), inversesqrt 2, product 1
 }

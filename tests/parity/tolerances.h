@@ -28,6 +28,7 @@ ToleranceFunction relative15;
 ToleranceFunction cosinePowerTolerance;
 ToleranceFunction chordTolerance;
 ToleranceFunction betweenTolerance;
+ToleranceFunction mixTolerance;
 ToleranceFunction normalizeTolerance;
 ToleranceFunction divisionTolerance;
 ToleranceFunction mipLevelTolerance;
