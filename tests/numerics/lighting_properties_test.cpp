@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include "lighting/lookup.h"

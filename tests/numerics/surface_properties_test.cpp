@@ -4,6 +4,7 @@
 // and every place. u below is 2^-23; bounds count roundings of u / 2.
 #include <algorithm>
 
+#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include "lodestar/cube.glsl"
