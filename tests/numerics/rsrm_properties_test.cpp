@@ -164,6 +164,26 @@ RC_GTEST_PROP(RsrmBakes, KeepTheMean, ()) {
     }
 }
 
+// Hazard 27: a row of a sun, 2e-5 of its disc, is lost beside sharper ones where all share one
+// scale of eight bits. The mean over a lobe of exponent 1 about the axis: 1 - cos^2 of the disc's
+// radius.
+TEST(RsrmMaps, ASunIsNotLostAtLowExponents) {
+    constexpr double kDisc = 0.27 * std::numbers::pi / 180.0;
+    const Gradient disc{{{0.0, glm::dvec3(1e4), 0.0}, {0.27, glm::dvec3(1e4), 0.0}}};
+    const double expected = 1e4 * 2.22064455e-5;
+    EXPECT_NEAR(1e4 * std::sin(kDisc) * std::sin(kDisc), expected, 1e-9);
+    const RadianceProfile profile(disc, LightKind::Sun);
+    const auto valueOf = [&](const RsrmLayout& layout) {
+        const auto kernel = kernels()->get(layout, LightKind::Sun);
+        const RsrmTexels texels =
+            encode(layout, kernel->bake(zonalRadiance(profile, kernel->zones())));
+        return static_cast<double>(rsrmRadiance(texels, unfiltered(profile), 0.0, 1.0).r);
+    };
+    EXPECT_NEAR(valueOf(kRsrmSmall), expected, 0.01 * expected);
+    // As published, a step or two of 255 are left of it.
+    EXPECT_GT(std::abs(valueOf(kRsrmPublishedColumns) - expected), 0.04 * expected);
+}
+
 // Axis and direction turned together: the angle between them, which is all that is asked for.
 RC_GTEST_PROP(Days, TurnWithTheirAxis, ()) {
     const glm::dmat3 turn(cubeRotation(*rc::gen::inRange(0, 24)));
