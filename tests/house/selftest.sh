@@ -78,6 +78,13 @@ equations)
     clean_tree && plant docs/derivations/mip.md 'm (MIP-1)' 'n (MIP-2)' 'o (MIP-3, boxed)' && expect fail 'MIP-3 is boxed'
     tree=$(mktemp -d "$scratch/tree.XXXXXX") && expect fail 'nothing was checked'
     ;;
+named-tests)
+    tree=$(mktemp -d "$scratch/tree.XXXXXX") && expect fail 'nothing was checked'
+    plant docs/a.md 'see `Suite.HasName` and `Suite.IsAProperty`'
+    plant tests/a.cpp 'TEST_F(Suite,' '       HasName) {}' 'RC_GTEST_PROP(Suite, IsAProperty, ()) {}'
+    expect pass '2 tests named, 0 violations'
+    plant docs/b.md 'and `Suite.HasNam`' && expect fail 'Suite.HasNam is named'
+    ;;
 *)
     echo "selftest: no such check: $check"
     exit 1
