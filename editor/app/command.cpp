@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <limits>
 
+#include <unistd.h>
+
 namespace lodestar::app {
 namespace {
 
@@ -30,6 +32,18 @@ void warn(const core::Tally& warnings, const std::string& file) {
     for (const auto& [rule, count] : warnings.counts()) {
         std::fprintf(stderr, "lodestar: warning: %s: %s (%llu times)\n", file.c_str(), rule.c_str(),
                      static_cast<unsigned long long>(count));
+    }
+}
+
+void progress(const std::string& what, std::size_t done, std::size_t of) {
+    if (isatty(STDERR_FILENO) != 0) {
+        std::fprintf(stderr, "\r%s %zu of %zu\033[K", what.c_str(), done, of);
+    }
+}
+
+void endProgress() {
+    if (isatty(STDERR_FILENO) != 0) {
+        std::fprintf(stderr, "\r\033[K");
     }
 }
 

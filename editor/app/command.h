@@ -22,6 +22,11 @@ int fail(const core::Error& error);
 /// Prints a line `lodestar: warning: FILE: rule (count times)` for each rule.
 void warn(const core::Tally& warnings, const std::string& file);
 
+/// A line on the error stream that overwrites itself where someone watches.
+void progress(const std::string& what, std::size_t done, std::size_t of);
+/// Takes it away.
+void endProgress();
+
 [[nodiscard]] core::Error usage(std::string what, std::string where = {});
 
 /// "a,b,c" as numbers. @errors Usage naming the option if there are not `count` finite numbers

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <memory>
 #include <numbers>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 
@@ -39,19 +38,6 @@ struct CostOptions {
     int repeats = 3;
     bool noPlots = false;
 };
-
-/// A line that overwrites itself where someone watches.
-void progress(const std::string& what, std::size_t done, std::size_t of) {
-    if (isatty(STDERR_FILENO) != 0) {
-        std::fprintf(stderr, "\r%s %zu of %zu\033[K", what.c_str(), done, of);
-    }
-}
-
-void endProgress() {
-    if (isatty(STDERR_FILENO) != 0) {
-        std::fprintf(stderr, "\r\033[K");
-    }
-}
 
 /// What is measured on one map.
 struct Measured {

@@ -325,7 +325,13 @@ core::Result<Sampler::Answer> Sampler::answer(const SampleQuery& query) {
         answer.estimator = lighting::estimatorName(choice.estimator);
         answer.foreseenError = choice.error;
     }
-    answer.lookup = lighting::lookup(**prepared, *request);
+    answer.lookup = lighting::lookup(**prepared, *request,
+                                     {0, [](double share) {
+                                          constexpr double kPercent = 100.0;
+                                          progress("reference: percent",
+                                                   static_cast<std::size_t>(share * kPercent), 100);
+                                      }});
+    endProgress();
     return answer;
 }
 

@@ -9,7 +9,7 @@
 namespace lodestar::core {
 
 void inParallel(std::size_t count, const std::function<void(std::size_t)>& work,
-                const std::function<void(std::size_t)>& progress) {
+                const std::function<void(std::size_t)>& progress, std::size_t threads) {
     std::atomic<std::size_t> next{0};
     std::atomic<std::size_t> done{0};
     const auto run = [&](const std::function<void(std::size_t)>& tell) {
@@ -21,7 +21,8 @@ void inParallel(std::size_t count, const std::function<void(std::size_t)>& work,
             }
         }
     };
-    const std::size_t processors = std::max<std::size_t>(std::thread::hardware_concurrency(), 1);
+    const std::size_t processors =
+        threads > 0 ? threads : std::max<std::size_t>(std::thread::hardware_concurrency(), 1);
     std::vector<std::jthread> helpers;
     for (std::size_t i = 1; i < std::min(processors, count); ++i) {
         helpers.emplace_back([&] { run({}); });

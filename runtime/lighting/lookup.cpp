@@ -68,22 +68,24 @@ const Cubemap& mipsFor(const PreparedEnvironment& environment, EstimatorKind kin
     return readsTentMips(kind) ? environment.tentMips : environment.boxMips;
 }
 
-glm::dvec3 referenceRadiance(const PreparedEnvironment& environment, const LookupRequest& request) {
+glm::dvec3 referenceRadiance(const PreparedEnvironment& environment, const LookupRequest& request,
+                             const ReferenceRun& run) {
     switch (request.lobe) {
     case Lobe::Phong:
-        return referencePhong(environment.base, request.direction, request.exponent);
+        return referencePhong(environment.base, request.direction, request.exponent, run);
     case Lobe::BlinnPhong:
         return referenceBlinnPhong(environment.base, request.direction, request.direction,
-                                   request.exponent);
+                                   request.exponent, run);
     case Lobe::Lambert:
         break;
     }
-    return referencePhong(environment.base, request.direction, 1.0); // the cosine lobe
+    return referencePhong(environment.base, request.direction, 1.0, run); // the cosine lobe
 }
 
-LookupAnswer lookupReference(const PreparedEnvironment& environment, const LookupRequest& request) {
+LookupAnswer lookupReference(const PreparedEnvironment& environment, const LookupRequest& request,
+                             const ReferenceRun& run) {
     const int width = environment.base.width();
-    return {referenceRadiance(environment, request), -1.0, 6 * width * width};
+    return {referenceRadiance(environment, request, run), -1.0, 6 * width * width};
 }
 
 LookupAnswer lookupSh9(const PreparedEnvironment& environment, const glm::vec3& normal) {
@@ -170,12 +172,13 @@ PreparedParts partsFor(const Estimator& estimator) {
     return parts;
 }
 
-LookupAnswer lookup(const PreparedEnvironment& environment, const LookupRequest& request) {
+LookupAnswer lookup(const PreparedEnvironment& environment, const LookupRequest& request,
+                    const ReferenceRun& run) {
     const EstimatorKind kind = request.estimator.kind;
     LODESTAR_EXPECT(serves(kind, request.lobe == Lobe::Lambert ? Term::Diffuse : Term::Glossy),
                     "the estimator serves the lobe's term");
     if (kind == EstimatorKind::Reference) {
-        return lookupReference(environment, request);
+        return lookupReference(environment, request, run);
     }
     const glm::vec3 direction =
         shader::lodestar_safeNormalize(glm::vec3(request.direction), glm::vec3(0.0f, 0.0f, 1.0f));

@@ -4,6 +4,8 @@
 // text of shaders/lodestar over CPU images; `reference` is double precision over all texels.
 #pragma once
 
+#include <functional>
+
 #include <glm/vec3.hpp>
 
 #include "lighting/environment.h"
@@ -30,19 +32,28 @@ struct LookupAnswer {
 /// The parts that a request needs prepared.
 [[nodiscard]] PreparedParts partsFor(const Estimator& estimator);
 
-/// @pre the environment holds partsFor(request.estimator); the estimator serves the lobe's term
+/// How a sum over all texels is made; the sum is the same to the last bit however it is.
+struct ReferenceRun {
+    std::size_t threads = 1; ///< 0: as many as there are processors
+    std::function<void(double share)> progress =
+        {}; ///< on the caller's thread, (0, 1]; may be empty
+};
+
+/// @param run of `reference`  @pre the environment holds partsFor(request.estimator); the estimator
+/// serves the lobe's term
 [[nodiscard]] LookupAnswer lookup(const PreparedEnvironment& environment,
-                                  const LookupRequest& request);
+                                  const LookupRequest& request, const ReferenceRun& run = {});
 
 /// Mean radiance over (s+1)/(2 pi) max(r.l, 0)^s, double precision over all texels with exact solid
 /// angles, divided by the weights' own sum, so that a constant map is exact.
 /// @param direction unit  @param exponent [0, 1e7]; a lobe narrower than a texel reads bilinearly
 [[nodiscard]] glm::dvec3 referencePhong(const Cubemap& base, const glm::dvec3& direction,
-                                        double exponent);
+                                        double exponent, const ReferenceRun& run = {});
 
 /// Mean radiance over the normalised Blinn-Phong lobe (n.h)^s (n.l) about n seen from v, the
 /// weights divided by their sum: what the lookup conversion is fitted to.
 [[nodiscard]] glm::dvec3 referenceBlinnPhong(const Cubemap& base, const glm::dvec3& normal,
-                                             const glm::dvec3& view, double exponent);
+                                             const glm::dvec3& view, double exponent,
+                                             const ReferenceRun& run = {});
 
 } // namespace lodestar::lighting

@@ -18,6 +18,7 @@
 #include "lodestar/cube.glsl"
 #include "lodestar/power.glsl"
 
+#include "core/parallel.h"
 #include "lighting/lookup.h"
 
 namespace lodestar::lighting {
@@ -83,56 +84,97 @@ struct WeightedSum {
     double weight = 0.0;
 };
 
-/// Whether a row of a face has a cosine with an axis above a least one: (A + a u) / sqrt(u^2 + B)
-/// is at most sqrt(A^2 / B + a^2), and positive only where A + a u is.
-bool reaches(const FaceLinear& axis, double v, double least) {
-    const double constant = axis.constant + axis.alongV * v;
-    return constant + std::abs(axis.alongU) > 0.0 &&
-           constant * constant / (v * v + 1.0) + axis.alongU * axis.alongU >= least * least;
+/// Columns of a row, [begin, end).
+struct Columns {
+    std::size_t begin;
+    std::size_t end;
+};
+
+/// Columns of row v outside which no texel's cosine with an axis exceeds `least`, one more at
+/// either end. (c + a u)^2 > least^2 (1 + v^2 + u^2) lies between two roots where a^2 < least^2;
+/// elsewhere, and where the roots lose their digits, all columns.
+Columns columnsWithin(const FaceLinear& axis, double v, double least, std::size_t width) {
+    constexpr double kLeastCurvature = 1e-3;
+    constexpr double kRounding = 1e-12;
+    const double c = axis.constant + axis.alongV * v;
+    const double curvature = least * least - axis.alongU * axis.alongU;
+    if (curvature < kLeastCurvature) {
+        return {0, width};
+    }
+    const double middle = c * axis.alongU / curvature;
+    const double squared = middle * middle + (c * c - least * least * (1.0 + v * v)) / curvature;
+    if (squared < -kRounding / curvature) {
+        return {0, 0};
+    }
+    const double reach = std::sqrt(std::max(squared, 0.0));
+    const auto columns = static_cast<double>(width);
+    const auto column = [&](double u) {
+        return std::clamp((u + 1.0) * 0.5 * columns, 0.0, columns);
+    };
+    const double begin = std::floor(column(middle - reach)) - 1.0;
+    const double end = std::ceil(column(middle + reach)) + 1.0;
+    return {static_cast<std::size_t>(std::max(begin, 0.0)),
+            static_cast<std::size_t>(std::min(end, columns))};
 }
 
+/// Rows that one thread sums at a time; below two such pieces a thread more does not pay.
+constexpr std::size_t kRowsAtOnce = 32;
+
 /// Adds all texels by `weigh(cosines...)`, a weight per steradian from the dot products of the
-/// texel's unit direction with the axes.
-/// @param least the weight is 0 where the cosine with the first axis is not above it, >= 0
-template <std::size_t Axes, class Weigh>
-WeightedSum sumOverTexels(const Cubemap& base, const std::array<dvec3, Axes>& axes, double least,
-                          const Weigh& weigh) {
-    const int width = base.width();
-    const auto grid = gridFor(width);
+/// texel's unit direction with the axes. Each row has its sum, and these are added in their order,
+/// whichever thread made them: rounding grows with the row, not with the map.
+/// @param columns of a row, from the axes on its face and v: all others have no weight
+template <std::size_t Axes, class Within, class Weigh>
+WeightedSum sumOverTexels(const Cubemap& base, const std::array<dvec3, Axes>& axes,
+                          const ReferenceRun& run, const Within& columns, const Weigh& weigh) {
+    const auto width = static_cast<std::size_t>(base.width());
+    const auto grid = gridFor(base.width());
     const std::vector<glm::vec4>& texels = base.level(0);
-    WeightedSum total;
-    std::size_t texel = 0;
+    std::array<std::array<FaceLinear, Axes>, 6> linear{};
     for (int face = 0; face < 6; ++face) {
-        std::array<FaceLinear, Axes> linear{};
         for (std::size_t a = 0; a < Axes; ++a) {
-            linear[a] = onFace(face, axes[a]);
+            linear[static_cast<std::size_t>(face)][a] = onFace(face, axes[a]);
         }
-        std::size_t inFace = 0;
-        for (const double v : grid->coordinates) {
-            if (!reaches(linear[0], v, least)) {
-                inFace += static_cast<std::size_t>(width);
-                texel += static_cast<std::size_t>(width);
-                continue;
+    }
+    std::vector<WeightedSum> rows(6 * width);
+    const auto sumRow = [&](std::size_t row) {
+        const std::array<FaceLinear, Axes>& onThis = linear[row / width];
+        const double v = grid->coordinates[row % width];
+        const Columns kept = columns(onThis, v);
+        WeightedSum sum;
+        for (std::size_t x = kept.begin; x < kept.end; ++x) {
+            const std::size_t inFace = row % width * width + x;
+            std::array<double, Axes> cosines{};
+            for (std::size_t a = 0; a < Axes; ++a) {
+                cosines[a] = (onThis[a].constant + onThis[a].alongU * grid->coordinates[x] +
+                              onThis[a].alongV * v) *
+                             grid->inverseNorms[inFace];
             }
-            WeightedSum row; // summed by rows: rounding grows with the row, not with the map
-            for (const double u : grid->coordinates) {
-                std::array<double, Axes> cosines{};
-                for (std::size_t a = 0; a < Axes; ++a) {
-                    cosines[a] =
-                        (linear[a].constant + linear[a].alongU * u + linear[a].alongV * v) *
-                        grid->inverseNorms[inFace];
-                }
-                const double weight = weigh(cosines) * grid->solidAngles[inFace];
-                if (weight > 0.0) {
-                    row.radiance += weight * dvec3(texels[texel]);
-                    row.weight += weight;
-                }
-                ++inFace;
-                ++texel;
+            const double weight = weigh(cosines) * grid->solidAngles[inFace];
+            if (weight > 0.0) {
+                sum.radiance += weight * dvec3(texels[row * width + x]);
+                sum.weight += weight;
             }
-            total.radiance += row.radiance;
-            total.weight += row.weight;
         }
+        rows[row] = sum;
+    };
+    const std::size_t pieces = (rows.size() + kRowsAtOnce - 1) / kRowsAtOnce;
+    core::inParallel(
+        pieces,
+        [&](std::size_t piece) {
+            const std::size_t end = std::min((piece + 1) * kRowsAtOnce, rows.size());
+            for (std::size_t row = piece * kRowsAtOnce; row < end; ++row) {
+                sumRow(row);
+            }
+        },
+        run.progress ? [&](std::size_t done) {
+            run.progress(static_cast<double>(done) / static_cast<double>(pieces));
+        } : std::function<void(std::size_t)>(),
+        run.threads);
+    WeightedSum total;
+    for (const WeightedSum& row : rows) {
+        total.radiance += row.radiance;
+        total.weight += row.weight;
     }
     return total;
 }
@@ -216,7 +258,8 @@ dvec3 blendNarrow(const Cubemap& base, const WeightedSum& sum, const dvec3& peak
 
 } // namespace
 
-glm::dvec3 referencePhong(const Cubemap& base, const glm::dvec3& direction, double exponent) {
+glm::dvec3 referencePhong(const Cubemap& base, const glm::dvec3& direction, double exponent,
+                          const ReferenceRun& run) {
     LODESTAR_EXPECT(!base.empty(), "the map has texels");
     const double s = shader_double::lodestar_repairExponent(exponent);
     const dvec3 axis = unitOr(direction, dvec3(0.0, 0.0, 1.0));
@@ -224,15 +267,21 @@ glm::dvec3 referencePhong(const Cubemap& base, const glm::dvec3& direction, doub
     WeightedSum sum;
     if (narrow < 1.0) {
         const double least = leastCosine(s);
-        sum = sumOverTexels<1>(base, {axis}, least, [&](const std::array<double, 1>& cosine) {
-            return cosine[0] > least ? power(cosine[0], s) : 0.0;
-        });
+        const auto width = static_cast<std::size_t>(base.width());
+        sum = sumOverTexels<1>(
+            base, {axis}, run,
+            [&](const std::array<FaceLinear, 1>& on, double v) {
+                return columnsWithin(on[0], v, least, width);
+            },
+            [&](const std::array<double, 1>& cosine) {
+                return cosine[0] > least ? power(cosine[0], s) : 0.0;
+            });
     }
     return blendNarrow(base, sum, axis, narrow);
 }
 
 glm::dvec3 referenceBlinnPhong(const Cubemap& base, const glm::dvec3& normal,
-                               const glm::dvec3& view, double exponent) {
+                               const glm::dvec3& view, double exponent, const ReferenceRun& run) {
     LODESTAR_EXPECT(!base.empty(), "the map has texels");
     const double s = shader_double::lodestar_repairExponent(exponent);
     const dvec3 n = unitOr(normal, dvec3(0.0, 0.0, 1.0));
@@ -244,15 +293,18 @@ glm::dvec3 referenceBlinnPhong(const Cubemap& base, const glm::dvec3& normal,
     WeightedSum sum;
     if (narrow < 1.0) {
         const double least = leastCosine(s);
-        sum = sumOverTexels<2>(base, {n, v}, 0.0, [&](const std::array<double, 2>& cosines) {
-            // n.h = (n.l + n.v) / |l + v|, |l + v|^2 = 2 + 2 l.v
-            const double squared = 2.0 + 2.0 * cosines[1];
-            if (cosines[0] <= 0.0 || squared <= 0.0) {
-                return 0.0;
-            }
-            const double nDotH = std::min((cosines[0] + nDotV) / std::sqrt(squared), 1.0);
-            return nDotH > least ? power(nDotH, s) * cosines[0] : 0.0;
-        });
+        const Columns all{0, static_cast<std::size_t>(base.width())};
+        const auto everywhere = [&](const auto&, double) { return all; };
+        sum = sumOverTexels<2>(
+            base, {n, v}, run, everywhere, [&](const std::array<double, 2>& cosines) {
+                // n.h = (n.l + n.v) / |l + v|, |l + v|^2 = 2 + 2 l.v
+                const double squared = 2.0 + 2.0 * cosines[1];
+                if (cosines[0] <= 0.0 || squared <= 0.0) {
+                    return 0.0;
+                }
+                const double nDotH = std::min((cosines[0] + nDotV) / std::sqrt(squared), 1.0);
+                return nDotH > least ? power(nDotH, s) * cosines[0] : 0.0;
+            });
     }
     return blendNarrow(base, sum, reflection, narrow);
 }

@@ -18,7 +18,7 @@ struct LodestarTaps {
 };
 
 /// A unit vector at right angles to a unit direction, the same for the same direction and continuous
-/// but at -Y, about which it turns twice. (Duff et al. 2017 have two branches, and a seam between.)
+/// but at -Y, about which it turns twice. ([Duff17] has two branches, and a seam between.)
 LODESTAR_FN vec3 lodestar_tangent(vec3 d) {
     // 1 / (1 + y), without its cancellation near -Y.
     Real a = d.y < 0.0f ? (1.0f - d.y) / max(d.x * d.x + d.z * d.z, LODESTAR_LITERAL(1e-20)) : 1.0f / (1.0f + d.y);

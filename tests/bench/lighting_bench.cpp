@@ -57,6 +57,21 @@ BENCHMARK(step<&lighting::irradianceCube>)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(step<&lighting::sh9FromCube>)->Name("sh9FromCube/256")->Unit(benchmark::kMillisecond);
 
+/// The sum over all texels: exponent, threads (0: all processors).
+void reference(benchmark::State& state) {
+    const glm::dvec3 direction = glm::normalize(glm::dvec3(0.3, 0.5, 0.8));
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(
+            lighting::referencePhong(cube(), direction, static_cast<double>(state.range(0)),
+                                     {static_cast<std::size_t>(state.range(1))}));
+    }
+}
+BENCHMARK(reference)
+    ->Name("reference/256")
+    ->ArgsProduct({{1, 64, 1024}, {1, 0}})
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+
 void lookup(benchmark::State& state, const char* name) {
     lighting::LookupRequest request;
     request.lobe = lighting::Lobe::Phong;

@@ -2,6 +2,7 @@
 //
 // The reference against closed forms, its passage to the bilinear lookup of a mirror, and one
 // furnace for all estimators.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "lighting/lookup.h"
+#include "lodestar/cube.glsl"
 #include "numerics/blinn_lobe.h"
 #include "numerics/ladder_environments.h"
 #include "numerics/oracles.h"
@@ -53,6 +55,65 @@ TEST(Reference, ConstantMapIsExact) {
             EXPECT_NEAR(lighting::referenceBlinnPhong(map, d, d, s).g, expected, 1e-12);
             const dvec3 view = glm::normalize(glm::normalize(d) + dvec3(0.7, 0.1, -0.5));
             EXPECT_NEAR(lighting::referenceBlinnPhong(map, d, view, s).g, expected, 1e-12);
+        }
+    }
+}
+
+TEST(Reference, AnyNumberOfThreadsGivesTheSameBits) {
+    const Cubemap map = lampCube(kCornerAxis, 9.0, 100); // 600 rows: pieces of unequal length
+    for (const dvec3& d : kDirections) {
+        for (const double s : {0.0, 1.0, 40.0, 3000.0}) {
+            const dvec3 phong = lighting::referencePhong(map, d, s);
+            const dvec3 blinn = lighting::referenceBlinnPhong(map, d, {0.0, 0.6, 0.8}, s);
+            for (const std::size_t threads : {0u, 2u, 3u, 7u, 64u}) {
+                EXPECT_EQ(lighting::referencePhong(map, d, s, {threads}), phong) << threads;
+                EXPECT_EQ(lighting::referenceBlinnPhong(map, d, {0.0, 0.6, 0.8}, s, {threads}),
+                          blinn)
+                    << threads;
+            }
+        }
+    }
+}
+
+TEST(Reference, ProgressRisesToTheEnd) {
+    const Cubemap map = constantCube(1.0f, 100);
+    std::vector<double> told;
+    static_cast<void>(lighting::referencePhong(map, {0.0, 0.0, 1.0}, 3.0,
+                                               {1, [&](double share) { told.push_back(share); }}));
+    ASSERT_GT(told.size(), 10u);
+    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+    EXPECT_EQ(told.back(), 1.0);
+}
+
+TEST(Reference, SkipsOnlyTexelsWithoutWeight) {
+    // Columns are skipped row by row: the sum over all texels must come to the same. (At s = 0 a
+    // texel on the horizon counts or not by its last bit.)
+    const Cubemap map = lampCube(kCornerAxis, 40.0, 96);
+    const std::vector<double> solidAngles = lighting::texelSolidAngles(96);
+    for (const dvec3& direction : kDirections) {
+        const dvec3 d = glm::normalize(direction);
+        for (const double s : {0.5, 2.0, 9.0, 30.0, 150.0, 800.0, 3000.0}) {
+            double sum = 0.0;
+            double weights = 0.0;
+            for (std::size_t t = 0; t < map.level(0).size(); ++t) {
+                const int inFace = static_cast<int>(t % solidAngles.size());
+                const glm::vec3 texel = shader::lodestar_cubeDirection(
+                    static_cast<int>(t / solidAngles.size()),
+                    static_cast<float>(2 * (inFace % 96) + 1 - 96) / 96.0f,
+                    static_cast<float>(2 * (inFace / 96) + 1 - 96) / 96.0f);
+                const double x = glm::dot(glm::normalize(dvec3(texel)), d);
+                const double weight =
+                    x > 0.0 ? std::pow(x, s) * solidAngles[t % solidAngles.size()] : 0.0;
+                sum += weight * static_cast<double>(map.level(0)[t].g);
+                weights += weight;
+            }
+            // The map's width is no power of two, so that coordinates in float are off by 6e-8 and
+            // directions by 1e-7; a weight moves by s times that over its cosine, on average below
+            // s^(1/2): few weights beyond the lobe's width count. At s = 1/2 the horizon's are
+            // steeper: square roots of 1e-7 in 1e-3 of all texels.
+            EXPECT_NEAR(lighting::referencePhong(map, d, s).g, sum / weights,
+                        1e-6 * std::sqrt(s + 1.0) * sum / weights)
+                << s;
         }
     }
 }
