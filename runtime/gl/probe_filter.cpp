@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <epoxy/gl.h>
 
 #include "core/contract.h"
+#include "lighting/round_fetches.h"
 #include "lighting/round_levels.h"
 #include "lodestar/cube.glsl"
 
@@ -17,17 +17,11 @@ namespace {
 
 /// Texture units of the passes' own; the renderer binds its own anew.
 constexpr int kCubeUnit = 0;
-constexpr int kMeansUnit = 1;
+constexpr int kTableUnit = 1;
 
-constexpr int kParts = 96;     ///< of a level that is summed up
-constexpr int kMostSummed = 8; ///< levels
-constexpr int kMostTaps = 64;
-/// The tent level that round levels are read from, and that which the last two are.
-constexpr int kRoundSource = 16;
-constexpr int kSummedSource = 4;
-/// Levels of at most so many texels are sums over all texels of the tent level of kSummedSource.
-constexpr int kSummedWidth = 2;
+constexpr int kParts = 96;       ///< of a level that is summed up
 constexpr int kCoefficients = 9; ///< of irradiance
+constexpr int kFetchRows = 256;  ///< for the round levels of any width
 
 int widthOf(const Texture& cube, int level) {
     return std::max(cube.width() >> level, 1);
@@ -42,10 +36,11 @@ int levelOfWidth(const Texture& cube, int width) {
     return level;
 }
 
-/// Fetches for a texel of a round level: as many as its lobe has texels of what it reads, but for
-/// its skirts.
-int roundFetches(int width) {
-    return width >= 16 ? 24 : width >= 8 ? 32 : 64;
+/// The level that a round one reads: the next finer, for the last few that of 8 texels, since four
+/// are too few to weigh a lobe with.
+int sourceOf(const Texture& cube, int level) {
+    constexpr int kSummed = 8;
+    return std::min(levelOfWidth(cube, kSummed), level - 1);
 }
 
 /// One over the sum of a level's weights in shaders/host/probe_sums.frag.
@@ -60,18 +55,6 @@ float normOf(int width) {
         }
     }
     return static_cast<float>(1.0 / (6.0 * sum));
-}
-
-/// Of a cosine lobe the share t lies within the angle whose cosine to s + 1 is 1 - t.
-void spiral(double exponent, int count, float* sines) {
-    for (int i = 0; i < count; ++i) {
-        const double t = (i + 0.5) / count;
-        const double cosine = std::pow(1.0 - t, 1.0 / (exponent + 1.0));
-        const double sine = std::sqrt(std::max(1.0 - cosine * cosine, 0.0));
-        const double angle = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
-        sines[2 * i] = static_cast<float>(sine * std::cos(angle));
-        sines[2 * i + 1] = static_cast<float>(sine * std::sin(angle));
-    }
 }
 
 void attach(GLenum target, const Texture& texture) {
@@ -115,22 +98,22 @@ core::Result<void> ProbeFilter::measureHalfStep() {
     return {};
 }
 
-core::Result<ProbeFilter::Pass> ProbeFilter::makePass(const char* fragment, bool layered) const {
-    auto made = Program::make(*device_, "host/probe_layers.vert", fragment, {},
-                              layered ? "host/probe_layers.geom" : "");
+core::Result<ProbeFilter::Pass> ProbeFilter::makePass(const char* fragment) const {
+    auto made = Program::make(*device_, "host/probe_screen.vert", fragment, {});
     if (!made) {
         return made.error();
     }
     made->setSampler("uFirstProbe", kCubeUnit);
-    made->setSampler("uMeans", kMeansUnit);
-    made->setSampler("uCoefficients", kMeansUnit);
+    made->setSampler("uFetches", kTableUnit);
+    made->setSampler("uMeans", kTableUnit);
+    made->setSampler("uCoefficients", kTableUnit);
     if (const int step = made->uniform("uHalfStep"); step >= 0) {
         made->use();
         glUniform1ui(step, halfStep_);
     }
     Pass pass;
     pass.widths = made->uniform("uWidths");
-    pass.lobe = made->uniform("uLobe");
+    pass.rows = made->uniform("uRows");
     pass.program = std::move(*made);
     return pass;
 }
@@ -139,21 +122,16 @@ core::Result<void> ProbeFilter::makePasses() {
     struct Wanted {
         Pass ProbeFilter::*pass;
         const char* fragment;
-        bool layered;
     };
     const Wanted wanted[] = {
-        {&ProbeFilter::tent_, "host/probe_tent.frag", true},
-        {&ProbeFilter::round_, "host/probe_round.frag", true},
-        {&ProbeFilter::all_, "host/probe_all.frag", true},
-        {&ProbeFilter::multiply_, "host/probe_multiply.frag", true},
-        {&ProbeFilter::sums_, "host/probe_sums.frag", false},
-        {&ProbeFilter::scale_, "host/probe_scale.frag", false},
-        {&ProbeFilter::sh9_, "host/probe_sh9.frag", false},
-        {&ProbeFilter::sh9Sum_, "host/probe_sh9_sum.frag", false},
-        {&ProbeFilter::irradiance_, "host/probe_irradiance.frag", false},
+        {&ProbeFilter::tent_, "host/probe_tent.frag"},
+        {&ProbeFilter::round_, "host/probe_round.frag"},
+        {&ProbeFilter::sh9_, "host/probe_sh9.frag"},
+        {&ProbeFilter::sh9Sum_, "host/probe_sh9_sum.frag"},
+        {&ProbeFilter::irradiance_, "host/probe_irradiance.frag"},
     };
     for (const Wanted& one : wanted) {
-        auto pass = makePass(one.fragment, one.layered);
+        auto pass = makePass(one.fragment);
         if (!pass) {
             return pass.error();
         }
@@ -167,8 +145,13 @@ core::Result<ProbeFilter> ProbeFilter::make(Device& device) {
     ProbeFilter filter;
     filter.device_ = &device;
     filter.fullScreen_ = VertexArray(device);
-    glGenFramebuffers(1, &filter.layers_);
+    glGenFramebuffers(1, &filter.faces_);
     glGenFramebuffers(1, &filter.small_);
+    glBindFramebuffer(GL_FRAMEBUFFER, filter.faces_);
+    constexpr GLenum kFaces[] = {GL_COLOR_ATTACHMENT0,     GL_COLOR_ATTACHMENT0 + 1,
+                                 GL_COLOR_ATTACHMENT0 + 2, GL_COLOR_ATTACHMENT0 + 3,
+                                 GL_COLOR_ATTACHMENT0 + 4, GL_COLOR_ATTACHMENT0 + 5};
+    glDrawBuffers(6, kFaces);
     if (auto measured = filter.measureHalfStep(); !measured) {
         return measured.error();
     }
@@ -179,10 +162,10 @@ core::Result<ProbeFilter> ProbeFilter::make(Device& device) {
         Texture ProbeFilter::*texture;
         int width, height;
     };
-    const Small smalls[] = {{&ProbeFilter::means_, kParts, kMostSummed},
-                            {&ProbeFilter::scales_, kMostSummed, 1},
-                            {&ProbeFilter::parts_, kParts, kCoefficients},
-                            {&ProbeFilter::coefficients_, kCoefficients, 1}};
+    const Small smalls[] = {
+        {&ProbeFilter::fetches_, lighting::kWidestRound * lighting::kWidestRound, kFetchRows},
+        {&ProbeFilter::parts_, kParts, kCoefficients},
+        {&ProbeFilter::coefficients_, kCoefficients, 1}};
     for (const Small& small : smalls) {
         auto texture = Texture::makeTarget(device, small.width, small.height, ArrayFormat::Rgba32F,
                                            false, "sums of a light probe");
@@ -200,35 +183,38 @@ ProbeFilter::ProbeFilter(ProbeFilter&& other) noexcept {
 
 ProbeFilter& ProbeFilter::operator=(ProbeFilter&& other) noexcept {
     std::swap(device_, other.device_);
-    for (Pass ProbeFilter::*pass :
-         {&ProbeFilter::tent_, &ProbeFilter::round_, &ProbeFilter::all_, &ProbeFilter::sums_,
-          &ProbeFilter::scale_, &ProbeFilter::multiply_, &ProbeFilter::sh9_, &ProbeFilter::sh9Sum_,
-          &ProbeFilter::irradiance_}) {
+    for (Pass ProbeFilter::*pass : {&ProbeFilter::tent_, &ProbeFilter::round_, &ProbeFilter::sh9_,
+                                    &ProbeFilter::sh9Sum_, &ProbeFilter::irradiance_}) {
         std::swap(this->*pass, other.*pass);
     }
     std::swap(tileUniform_, other.tileUniform_);
     std::swap(halfStep_, other.halfStep_);
     std::swap(fullScreen_, other.fullScreen_);
-    std::swap(layers_, other.layers_);
+    std::swap(faces_, other.faces_);
     std::swap(small_, other.small_);
-    for (Texture ProbeFilter::*texture : {&ProbeFilter::means_, &ProbeFilter::scales_,
-                                          &ProbeFilter::parts_, &ProbeFilter::coefficients_}) {
+    for (Texture ProbeFilter::*texture :
+         {&ProbeFilter::parts_, &ProbeFilter::coefficients_, &ProbeFilter::fetches_}) {
         std::swap(this->*texture, other.*texture);
     }
+    std::swap(fetchesWidth_, other.fetchesWidth_);
+    std::swap(roundLevels_, other.roundLevels_);
     return *this;
 }
 
 ProbeFilter::~ProbeFilter() {
     if (device_ != nullptr) {
-        const GLuint framebuffers[] = {layers_, small_};
+        const GLuint framebuffers[] = {faces_, small_};
         glDeleteFramebuffers(2, framebuffers);
     }
 }
 
 void ProbeFilter::beginLevel(const Texture& cube, int level) {
     const int width = widthOf(cube, level);
-    glBindFramebuffer(GL_FRAMEBUFFER, layers_);
-    glFramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, cube.id(), level);
+    glBindFramebuffer(GL_FRAMEBUFFER, faces_);
+    for (GLenum face = 0; face < 6; ++face) {
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + face,
+                               GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, cube.id(), level);
+    }
     glViewport(0, 0, width, width);
     ++device_->counters().passes;
     device_->counters().texelsWritten +=
@@ -241,72 +227,41 @@ void ProbeFilter::tent(const Texture& cube, int level) {
     tent_.program.use();
     glUniform2f(tent_.widths, static_cast<float>(widthOf(cube, level)),
                 static_cast<float>(widthOf(cube, level - 1)));
-    drawFullScreen(*device_, 6);
+    drawFullScreen(*device_);
 }
 
-/// Scales levels, channel by channel, so that their means are that of a finer one. Tents keep the
-/// mean by themselves (3e-4 a level at most, a lamp at the cube's corner); spirals do not.
-/// @param reference the level before the first that is scaled
-void ProbeFilter::keepMean(const Texture& cube, int reference, int last) {
-    const int rows = last - reference + 1;
-    cube.showLevels(0, cube.levelCount() - 1);
-    glBindFramebuffer(GL_FRAMEBUFFER, small_);
-    attach(GL_COLOR_ATTACHMENT0, means_);
-    glViewport(0, 0, kParts, rows);
-    ++device_->counters().passes;
-    sums_.program.use();
-    float norms[kMostSummed] = {};
-    for (int row = 0; row < rows; ++row) {
-        norms[row] = normOf(widthOf(cube, reference + std::max(row, 1)));
+/// The fetches of all round levels of cubes so wide, into the table.
+void ProbeFilter::prepareRound(const Texture& cube) {
+    if (fetchesWidth_ == cube.width()) {
+        return;
     }
-    glUniform1fv(sums_.program.uniform("uNorms"), rows, norms);
-    glUniform2i(sums_.program.uniform("uRange"), reference, cube.width());
-    drawFullScreen(*device_);
-    attach(GL_COLOR_ATTACHMENT0, scales_);
-    glViewport(0, 0, rows, 1);
-    ++device_->counters().passes;
-    means_.bind(kMeansUnit);
-    scale_.program.use();
-    drawFullScreen(*device_);
-    scales_.bind(kMeansUnit);
-    multiply_.program.use();
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ZERO, GL_SRC_COLOR);
-    for (int row = 1; row < rows; ++row) {
-        beginLevel(cube, reference + row);
-        glUniform1i(multiply_.program.uniform("uRow"), row);
-        drawFullScreen(*device_, 6);
+    fetchesWidth_ = cube.width();
+    roundLevels_.clear();
+    fetches_.bind(kTableUnit);
+    const int first = std::max(levelOfWidth(cube, lighting::kWidestRound), 1);
+    const auto effectiveWidth = [&](int level) {
+        return std::ldexp(static_cast<double>(cube.width()), -level);
+    };
+    int row = 0;
+    for (int level = first; level < cube.levelCount(); ++level) {
+        const int source = sourceOf(cube, level);
+        const auto made = lighting::roundFetches(
+            effectiveWidth(level), widthOf(cube, level),
+            {effectiveWidth(source), widthOf(cube, source), source >= first});
+        LODESTAR_EXPECT(row + made->most <= kFetchRows, "the fetches of all round levels fit");
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, row, made->texels, made->most, GL_RGBA, GL_FLOAT,
+                        made->fetches.data());
+        roundLevels_.push_back({level, source, row, row + made->most});
+        row += made->most;
     }
-    glDisable(GL_BLEND);
-    cube.bind(kCubeUnit);
 }
 
-void ProbeFilter::round(const Texture& cube, int level, int source) {
-    const double width = widthOf(cube, level);
-    const double ratio = width / widthOf(cube, source);
-    const double exponent =
-        width <= 1.0
-            ? 0.0
-            : lighting::exponentOfTentLevel(std::ldexp(static_cast<double>(cube.width()), -level));
-    const double hat = 1.0 / 6.0 + 0.25 * ratio * ratio;
-    const bool all = width <= kSummedWidth;
-    const int fetches = all ? widthOf(cube, source) : roundFetches(static_cast<int>(width));
-    const Pass& pass = all ? all_ : round_;
-    cube.showLevels(source, source);
-    beginLevel(cube, level);
-    pass.program.use();
-    glUniform4f(pass.lobe, static_cast<float>(width), static_cast<float>(exponent),
-                static_cast<float>(hat), static_cast<float>(fetches));
-    if (!all) {
-        const double texel = 4.0 * std::numbers::pi / (6.0 * width * width);
-        const float mean = shader::lodestar_roundExponent(static_cast<float>(exponent),
-                                                          static_cast<float>(hat * texel));
-        float sines[2 * kMostTaps] = {};
-        spiral(static_cast<double>(mean), fetches, sines);
-        glUniform2fv(pass.program.uniform("uSpiral"), fetches, sines);
-        glUniform1f(pass.program.uniform("uMeanExponent"), mean);
-    }
-    drawFullScreen(*device_, 6);
+void ProbeFilter::round(const Texture& cube, const RoundLevel& level) {
+    cube.showLevels(level.source, level.source);
+    beginLevel(cube, level.level);
+    round_.program.use();
+    glUniform3i(round_.rows, widthOf(cube, level.level), level.firstRow, level.endRow);
+    drawFullScreen(*device_);
 }
 
 void ProbeFilter::begin(const Texture& cube) {
@@ -318,28 +273,25 @@ void ProbeFilter::begin(const Texture& cube) {
     fullScreen_.bind();
 }
 
-/// Tents as far as something reads them: round levels read those of 16 and 4 texels, the first of
-/// them the level before. @return the coarsest of at least 16 texels
+/// Tents as far as round levels read them. @return the coarsest
 int ProbeFilter::makeTents(const Texture& cube, int lastLevel) {
-    const int wide = levelOfWidth(cube, kRoundSource);
-    const int narrow = levelOfWidth(cube, kSummedSource);
-    const bool summed = widthOf(cube, lastLevel) <= kSummedWidth && lastLevel > narrow;
-    const int lastTent = summed ? narrow : std::min(lastLevel, wide);
+    const int wide = levelOfWidth(cube, lighting::kWidestRound);
+    const int lastTent = std::min(lastLevel, std::max(wide - 1, 0));
     for (int level = 1; level <= lastTent; ++level) {
         tent(cube, level);
     }
-    return std::min(lastTent, wide);
+    return lastTent;
 }
 
 void ProbeFilter::makeRound(const Texture& cube, int lastLevel) {
-    const int wide = levelOfWidth(cube, kRoundSource);
-    const int narrow = levelOfWidth(cube, kSummedSource);
-    for (int level = lastLevel; level > wide; --level) {
-        round(cube, level, widthOf(cube, level) <= kSummedWidth ? narrow : wide);
-    }
-    if (wide > 0 && lastLevel >= wide) {
-        round(cube, wide, wide - 1);
-        keepMean(cube, wide - 1, lastLevel);
+    prepareRound(cube);
+    cube.bind(kCubeUnit);
+    fetches_.bind(kTableUnit);
+    glActiveTexture(GL_TEXTURE0 + kCubeUnit);
+    for (const RoundLevel& level : roundLevels_) {
+        if (level.level <= lastLevel) {
+            round(cube, level);
+        }
     }
     cube.showLevels(0, cube.levelCount() - 1);
 }
@@ -356,7 +308,6 @@ void ProbeFilter::fill(const Texture& cube, int lastLevel, IrradianceAtlas& atla
     begin(cube);
     const int tents = makeTents(cube, lastLevel);
     fillIrradiance(cube, tents, atlas, tile);
-    cube.bind(kCubeUnit);
     makeRound(cube, lastLevel);
 }
 
@@ -373,11 +324,11 @@ void ProbeFilter::fillIrradiance(const Texture& cube, int level, IrradianceAtlas
     attach(GL_COLOR_ATTACHMENT0, coefficients_);
     glViewport(0, 0, kCoefficients, 1);
     ++device_->counters().passes;
-    parts_.bind(kMeansUnit);
+    parts_.bind(kTableUnit);
     sh9Sum_.program.use();
     drawFullScreen(*device_);
     atlas.begin(tile);
-    coefficients_.bind(kMeansUnit);
+    coefficients_.bind(kTableUnit);
     irradiance_.program.use();
     const glm::ivec2 first = atlas.tile(tile);
     glUniform2i(tileUniform_, first.x, first.y);

@@ -4,6 +4,8 @@
 // read-back: tent mips whose coarse levels are round, and a tile of irradiance. Move-only.
 #pragma once
 
+#include <vector>
+
 #include "gl/buffer.h"
 #include "gl/irradiance_atlas.h"
 #include "gl/program.h"
@@ -33,28 +35,38 @@ private:
     struct Pass {
         Program program;
         int widths = -1; ///< uniforms
-        int lobe = -1;
+        int rows = -1;
+    };
+    /// A round level, the level that it is read from, and its rows of fetches_.
+    struct RoundLevel {
+        int level = 0;
+        int source = 0;
+        int firstRow = 0;
+        int endRow = 0;
     };
     [[nodiscard]] core::Result<void> measureHalfStep();
-    [[nodiscard]] core::Result<Pass> makePass(const char* fragment, bool layered) const;
+    [[nodiscard]] core::Result<Pass> makePass(const char* fragment) const;
     [[nodiscard]] core::Result<void> makePasses();
     void beginLevel(const Texture& cube, int level);
     void begin(const Texture& cube);
+    void prepareRound(const Texture& cube);
     int makeTents(const Texture& cube, int lastLevel);
     void makeRound(const Texture& cube, int lastLevel);
     void tent(const Texture& cube, int level);
+    void round(const Texture& cube, const RoundLevel& level);
     void fillIrradiance(const Texture& cube, int level, IrradianceAtlas& atlas, int tile);
-    void keepMean(const Texture& cube, int reference, int last);
-    void round(const Texture& cube, int level, int source);
 
     Device* device_ = nullptr;
-    Pass tent_, round_, all_, sums_, scale_, multiply_, sh9_, sh9Sum_, irradiance_;
+    Pass tent_, round_, sh9_, sh9Sum_, irradiance_;
     int tileUniform_ = -1;
     unsigned halfStep_ = 0;
     VertexArray fullScreen_;
-    unsigned layers_ = 0; ///< framebuffer of a level's faces
-    unsigned small_ = 0;  ///< of the small textures
-    Texture means_, scales_, parts_, coefficients_;
+    unsigned faces_ = 0; ///< framebuffer of a level's six faces
+    unsigned small_ = 0; ///< of the small textures
+    Texture parts_, coefficients_;
+    Texture fetches_;                     ///< of the round levels of cubes of a width
+    int fetchesWidth_ = 0;                ///< that width
+    std::vector<RoundLevel> roundLevels_; ///< finest first
 };
 
 } // namespace lodestar::gl

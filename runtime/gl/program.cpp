@@ -49,8 +49,7 @@ Program::~Program() {
 }
 
 core::Result<Program> Program::make(Device& device, std::string_view vertexFile,
-                                    std::string_view fragmentFile, const Defines& defines,
-                                    std::string_view geometryFile) {
+                                    std::string_view fragmentFile, const Defines& defines) {
     auto vertex = assembleShader(vertexFile, 330, defines);
     if (!vertex) {
         return vertex.error();
@@ -59,20 +58,11 @@ core::Result<Program> Program::make(Device& device, std::string_view vertexFile,
     if (!fragment) {
         return fragment.error();
     }
-    std::string geometry;
-    if (!geometryFile.empty()) {
-        auto assembled = assembleShader(geometryFile, 330, defines);
-        if (!assembled) {
-            return assembled.error();
-        }
-        geometry = std::move(*assembled);
-    }
-    return makeFromText(device, *vertex, *fragment, std::string(fragmentFile), geometry);
+    return makeFromText(device, *vertex, *fragment, std::string(fragmentFile));
 }
 
 core::Result<Program> Program::makeFromText(Device& device, const std::string& vertex,
-                                            const std::string& fragment, const std::string& label,
-                                            const std::string& geometry) {
+                                            const std::string& fragment, const std::string& label) {
     auto vertexShader = compile(device, GL_VERTEX_SHADER, vertex, label + " (vertex)");
     if (!vertexShader) {
         return vertexShader.error();
@@ -82,23 +72,9 @@ core::Result<Program> Program::makeFromText(Device& device, const std::string& v
         glDeleteShader(*vertexShader);
         return fragmentShader.error();
     }
-    unsigned geometryShader = 0;
-    if (!geometry.empty()) {
-        auto compiled = compile(device, GL_GEOMETRY_SHADER, geometry, label + " (geometry)");
-        if (!compiled) {
-            glDeleteShader(*vertexShader);
-            glDeleteShader(*fragmentShader);
-            return compiled.error();
-        }
-        geometryShader = *compiled;
-    }
     Program program;
     program.device_ = &device;
     program.id_ = glCreateProgram();
-    if (geometryShader != 0) {
-        glAttachShader(program.id_, geometryShader);
-        glDeleteShader(geometryShader); // with the program
-    }
     glAttachShader(program.id_, *vertexShader);
     glAttachShader(program.id_, *fragmentShader);
     glLinkProgram(program.id_);

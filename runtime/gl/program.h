@@ -12,7 +12,7 @@
 
 namespace lodestar::gl {
 
-/// A linked program of a vertex, a fragment and perhaps a geometry shader. Move-only.
+/// A linked program of a vertex and a fragment shader. Move-only.
 class Program {
 public:
     Program() = default;
@@ -23,12 +23,12 @@ public:
     /// @errors Internal with the driver's first message, as FILE: message (line)
     [[nodiscard]] static core::Result<Program> make(Device& device, std::string_view vertexFile,
                                                     std::string_view fragmentFile,
-                                                    const Defines& defines,
-                                                    std::string_view geometryFile = {});
+                                                    const Defines& defines);
     /// The same from whole texts.
-    [[nodiscard]] static core::Result<Program>
-    makeFromText(Device& device, const std::string& vertex, const std::string& fragment,
-                 const std::string& label, const std::string& geometry = {});
+    [[nodiscard]] static core::Result<Program> makeFromText(Device& device,
+                                                            const std::string& vertex,
+                                                            const std::string& fragment,
+                                                            const std::string& label);
 
     [[nodiscard]] unsigned id() const { return id_; }
     [[nodiscard]] explicit operator bool() const { return id_ != 0; }

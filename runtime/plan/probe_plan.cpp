@@ -90,38 +90,13 @@ int widthOf(const ProbeView& probe, int level) {
     return std::max(probe.capture.resolution >> level, 1);
 }
 
-/// The finest level that is at most so wide.
-int levelOfWidth(const ProbeView& probe, int width) {
-    int level = 0;
-    while (widthOf(probe, level) > width) {
-        ++level;
-    }
-    return level;
-}
-
-/// What gl/probe_filter.h does for levels 1 to a last one: a pass for each tent, as far down as
-/// round levels read them, one for each round level, and where there are any, sums, scales and what
-/// they scale.
+/// What gl/probe_filter.h does for levels 1 to a last one: a pass each.
 Cost mipCost(const ProbeView& probe, int last) {
-    const int wide = levelOfWidth(probe, 16);
-    const int narrow = levelOfWidth(probe, 4);
-    const bool summed = last > narrow && widthOf(probe, last) <= 2;
-    const int tents = summed ? narrow : std::min(last, wide);
-    const bool round = wide > 0 && last >= wide;
     Cost cost;
-    const auto addLevels = [&](int first, int end) {
-        for (int level = first; level <= end; ++level) {
-            const auto width = static_cast<std::uint64_t>(widthOf(probe, level));
-            cost.texelsWritten += 6 * width * width;
-            ++cost.passes;
-        }
-    };
-    addLevels(1, tents);
-    addLevels(wide + 1, last);
-    if (round) {
-        addLevels(wide, wide);
-        addLevels(wide, last);
-        cost.passes += 2;
+    for (int level = 1; level <= last; ++level) {
+        const auto width = static_cast<std::uint64_t>(widthOf(probe, level));
+        cost.texelsWritten += 6 * width * width;
+        ++cost.passes;
     }
     cost.draws = cost.passes;
     return cost;

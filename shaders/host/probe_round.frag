@@ -1,34 +1,27 @@
 // SPDX-License-Identifier: MIT
 //
-// A coarse level of tent mips: means over round lobes, as a spiral of fetches of equal weight. The
-// spiral is that of the level's mean texel, drawn together or apart for each texel's own lobe.
+// A round level of all six faces at once: weighted sums of bilinear fetches from a finer level, the
+// same for each face but for its turn.
 #include "host/probe_half.glsl"
-#include "lodestar/cube.glsl"
+#include "host/probe_faces.glsl"
 
 uniform samplerCube uFirstProbe; // its base level is the one that is read
-uniform vec4 uLobe;              // face width of the level that is made, its exponent, spread that a texel adds, fetches
-uniform vec2 uSpiral[64];        // sines, for the mean exponent uMeanExponent
-uniform float uMeanExponent;
-
-flat in int vFace;
-
-layout(location = 0) out vec4 oRadiance;
+uniform sampler2D uFetches;      // fetch y of texel x of a face: where, and its share
+uniform ivec3 uRows;             // width of a face, the first row of uFetches, the end
 
 void main() {
-    vec2 center = gl_FragCoord.xy * (2.0 / uLobe.x) - 1.0;
-    vec3 r = normalize(lodestar_cubeDirection(vFace, center.x, center.y));
-    float exponent = lodestar_roundExponent(uLobe.y, uLobe.z * lodestar_texelSolidAngle(uLobe.x, gl_FragCoord.x - 0.5, gl_FragCoord.y - 0.5));
-    // Half the mean square of a cosine lobe's angle is 1 / (s + 2).
-    float narrower = sqrt((uMeanExponent + 2.0) / (exponent + 2.0));
-    vec3 u = normalize(abs(r.y) < 0.7 ? vec3(r.z, 0.0, -r.x) : vec3(0.0, -r.z, r.y));
-    vec3 v = cross(r, u);
-    u *= narrower;
-    v *= narrower;
-    vec4 sum = vec4(0.0);
-    int count = int(uLobe.w);
-    for (int i = 0; i < count; ++i) {
-        vec3 across = uSpiral[i].x * u + uSpiral[i].y * v;
-        sum += textureLod(uFirstProbe, sqrt(max(1.0 - dot(across, across), 0.0)) * r + across, 0.0);
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    int texel = at.y * uRows.x + at.x;
+    vec4 sums[6] = vec4[6](vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+    for (int row = uRows.y; row < uRows.z; ++row) {
+        vec4 fetch = texelFetch(uFetches, ivec2(texel, row), 0);
+        if (fetch.w == 0.0) {
+            break;
+        }
+        for (int face = 0; face < 6; ++face) {
+            sums[face] += fetch.w * textureLod(uFirstProbe, turned(face, fetch.xyz), 0.0);
+        }
     }
-    oRadiance = nearestHalf(sum / uLobe.w);
+    writeFaces(nearestHalf(sums[0]), nearestHalf(sums[1]), nearestHalf(sums[2]), nearestHalf(sums[3]), nearestHalf(sums[4]),
+               nearestHalf(sums[5]));
 }

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// A level of tent mips from the next finer one: the (1 3 3 1) x (1 3 3 1) mean as four bilinear
-// fetches, across faces, each weighted by the solid angle there.
+// A level of tent mips from the next finer one, all six faces at once: the (1 3 3 1) x (1 3 3 1) mean as
+// four bilinear fetches, across faces, each weighted by the solid angle there.
 #include "host/probe_half.glsl"
+#include "host/probe_faces.glsl"
 #include "lodestar/cube.glsl"
 
 uniform samplerCube uFirstProbe; // its base level is the finer one
 uniform vec2 uWidths;            // of a face: the level that is made, the finer one
 
-flat in int vFace;
-
-layout(location = 0) out vec4 oRadiance;
-
-vec4 texelAt(float x, float y) {
-    return textureLod(uFirstProbe, lodestar_cubeDirection(vFace, x, y), 0.0);
+vec4 texelAt(int face, vec2 at) {
+    return textureLod(uFirstProbe, turned(face, vec3(at, 1.0)), 0.0);
 }
 
 void main() {
@@ -23,7 +20,12 @@ void main() {
     vec2 high = center + reach;
     vec4 weights = vec4(lodestar_texelDensity(low.x, low.y), lodestar_texelDensity(high.x, low.y),
                         lodestar_texelDensity(low.x, high.y), lodestar_texelDensity(high.x, high.y));
-    vec4 sum = weights.x * texelAt(low.x, low.y) + weights.y * texelAt(high.x, low.y) +
-               weights.z * texelAt(low.x, high.y) + weights.w * texelAt(high.x, high.y);
-    oRadiance = nearestHalf(sum / (weights.x + weights.y + weights.z + weights.w));
+    weights /= weights.x + weights.y + weights.z + weights.w;
+    vec4 means[6];
+    for (int face = 0; face < 6; ++face) {
+        means[face] = weights.x * texelAt(face, low) + weights.y * texelAt(face, vec2(high.x, low.y)) +
+                      weights.z * texelAt(face, vec2(low.x, high.y)) + weights.w * texelAt(face, high);
+    }
+    writeFaces(nearestHalf(means[0]), nearestHalf(means[1]), nearestHalf(means[2]), nearestHalf(means[3]),
+               nearestHalf(means[4]), nearestHalf(means[5]));
 }

@@ -16,66 +16,15 @@
 #include "lighting/mips.h"
 #include "lodestar/cube.glsl"
 #include "lodestar/sh9.glsl"
-#include "support/cubes.h"
-#include "support/gl_fixture.h"
+#include "support/probe_chain.h"
 
 namespace lodestar {
 namespace {
 
 using lighting::Cubemap;
 
-class ProbeFilterTest : public testing::GlTest {
-protected:
-    void SetUp() override {
-        GlTest::SetUp();
-        auto made = gl::ProbeFilter::make(device());
-        ASSERT_TRUE(made.ok()) << made.error().message();
-        filter_.emplace(std::move(*made));
-        auto atlas = gl::IrradianceAtlas::make(device());
-        ASSERT_TRUE(atlas.ok());
-        atlas_ = std::move(*atlas);
-        glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
-    }
-    void TearDown() override {
-        filter_.reset();
-        atlas_ = {};
-        GlTest::TearDown();
-    }
-    /// A target that holds a level 0.
-    gl::Texture targetOf(const Cubemap& base) {
-        auto target = gl::Texture::makeCubeTarget(device(), base.width(),
-                                                  lighting::fullLevelCount(base.width()), "cube");
-        EXPECT_TRUE(target.ok());
-        target->bind(0);
-        const std::size_t face = base.level(0).size() / 6;
-        for (std::size_t i = 0; i < 6; ++i) {
-            glTexSubImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + static_cast<GLenum>(i), 0, 0, 0,
-                            base.width(), base.width(), GL_RGBA, GL_FLOAT,
-                            base.level(0).data() + i * face);
-        }
-        return std::move(*target);
-    }
-    Cubemap read(const gl::Texture& cube, int levels) {
-        Cubemap map(cube.width(), levels);
-        cube.bind(0);
-        for (int level = 0; level < levels; ++level) {
-            const std::size_t face = map.level(level).size() / 6;
-            for (std::size_t i = 0; i < 6; ++i) {
-                glGetTexImage(GL_TEXTURE_CUBE_MAP_POSITIVE_X + static_cast<GLenum>(i), level,
-                              GL_RGBA, GL_FLOAT, map.level(level).data() + i * face);
-            }
-        }
-        return map;
-    }
-    Cubemap filtered(const Cubemap& base) {
-        const gl::Texture cube = targetOf(base);
-        filter_->fillMips(cube, cube.levelCount() - 1);
-        return read(cube, cube.levelCount());
-    }
-
-    std::optional<gl::ProbeFilter> filter_;
-    gl::IrradianceAtlas atlas_;
-};
+using testing::ProbeChainTest;
+class ProbeFilterTest : public ProbeChainTest {};
 
 Cubemap constant(const glm::vec3& radiance, int width) {
     return lighting::cubeFromAnalytic(lighting::ConstantEnvironment{glm::dvec3(radiance)}, width);
@@ -104,8 +53,11 @@ TEST_F(ProbeFilterTest, AConstantStaysConstant) {
     }
 }
 
-// Tents keep the mean but for the kink of the solid angle at edges, coarse levels are scaled to a
-// fine one's; half floats round 5e-4. A lamp at a corner is the worst: 6e-4 were measured.
+// Tents keep the mean but for the kink of the solid angle at edges, round levels because their
+// weights are balanced; half floats round 5e-4. A lamp at a corner is the worst: 6e-4 were
+// measured. The one texel of a last level is the mean over a hemisphere by fetches of four texels,
+// which weigh those of a corner of the level of 8 by 1.3 % too much or too little: products cannot
+// follow solid angles there.
 TEST_F(ProbeFilterTest, EveryLevelKeepsTheMean) {
     for (const int width : {128, 64, 256}) {
         for (const glm::dvec3& axis : {glm::dvec3(1, 1, 1), glm::dvec3(1, 0, 0),
@@ -114,17 +66,17 @@ TEST_F(ProbeFilterTest, EveryLevelKeepsTheMean) {
             const glm::dvec4 truth = lighting::sphereMean(map, 0);
             for (int level = 1; level < map.levelCount(); ++level) {
                 const glm::dvec4 mean = lighting::sphereMean(map, level);
-                EXPECT_NEAR(mean.g, truth.g, 1e-3 * truth.g) << width << " level " << level;
-                EXPECT_NEAR(mean.a, truth.a, 1e-3 * truth.a) << width << " level " << level;
+                const double most = map.width(level) > 1 ? 1e-3 : 2e-3;
+                EXPECT_NEAR(mean.g, truth.g, most * truth.g) << width << " level " << level;
+                EXPECT_NEAR(mean.a, truth.a, most * truth.a) << width << " level " << level;
             }
         }
     }
 }
 
-// A lookup through the passes' chain against the CPU's, relative RMS over the sphere. Round levels
-// are spirals of as many fetches as their lobes have texels, so that one texel's light is seen by
-// one of them or its neighbours: .08 were measured of lamps of ten texels, half of the .12 to .2 by
-// which the CPU's chain is off itself, so that the two add up to a tenth more; .24 of a sun of one.
+// A lookup through the passes' chain against the CPU's, relative RMS over the sphere: weights are
+// the CPU's but for balance, and products within four texels. .034 were measured where both are
+// .12 to .2 wrong against the truth (gl-probe-ladder).
 TEST_F(ProbeFilterTest, LooksLikeTheCpusChain) {
     std::mt19937 random(3);
     struct Case {
@@ -133,16 +85,16 @@ TEST_F(ProbeFilterTest, LooksLikeTheCpusChain) {
         double bound;
     };
     const Case cases[] = {
-        {"lamp at a corner", lamp({1, 1, 1}, 128), 0.09},
-        {"lamp at a face's middle", lamp({0, 0, 1}, 128), 0.09},
-        {"sky", lighting::cubeFromAnalytic(lighting::ClearSkyEnvironment{}, 128), 0.27},
+        {"lamp at a corner", lamp({1, 1, 1}, 128), 0.04},
+        {"lamp at a face's middle", lamp({0, 0, 1}, 128), 0.04},
+        {"sky", lighting::cubeFromAnalytic(lighting::ClearSkyEnvironment{}, 128), 0.04},
         {"faces",
          lighting::cubeFromAnalytic(
              lighting::FacesEnvironment{{glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 1),
                                          glm::dvec3(0, 1, 0), glm::dvec3(1, 0, 1),
                                          glm::dvec3(0, 0, 1), glm::dvec3(1, 1, 0)}},
              128),
-         0.02},
+         0.01},
     };
     for (const Case& each : cases) {
         const Cubemap ours = filtered(each.base);

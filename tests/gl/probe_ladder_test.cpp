@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+//
+// The ladder of a light probe: what a lookup of the estimator `tent` is wrong by, as relative RMSE
+// over the sphere and RGB against sums over all texels, from the chain that passes make and from
+// the CPU's of the same cube.
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "lighting/mips.h"
+#include "lodestar/cube.glsl"
+#include "numerics/ladder_truth.h"
+#include "support/probe_chain.h"
+
+namespace lodestar::testing {
+namespace {
+
+using lighting::Cubemap;
+
+/// A bare sun: one texel on a dim sky.
+NamedCube sun(const char* name, int width, int face, int x, int y) {
+    Cubemap cube = constantCube(width, glm::vec4(0.05f, 0.05f, 0.05f, 1.0f));
+    cube.texel(face, x, y) = glm::vec4(1e4f, 0.95e4f, 0.85e4f, 1.0f);
+    return {name, std::move(cube)};
+}
+
+std::vector<NamedCube> panoramasAndShapes(int width) {
+    std::vector<NamedCube> all = analyticSet(width);
+    if (std::filesystem::exists(panoramaPath("sunset"))) {
+        for (NamedCube& cube : panoramaSet({"sunset", "interior", "courtyard", "forest"}, width)) {
+            all.push_back(std::move(cube));
+        }
+    } else {
+        std::printf("without the panoramas of blender-data, which this machine lacks\n");
+    }
+    return all;
+}
+
+/// At a face's middle, at a corner of the cube, at an edge, and at no such place.
+std::vector<NamedCube> suns(int width) {
+    return {sun("middle", width, 4, width / 2, width / 2),
+            sun("corner", width, 4, width - 1, width - 1), sun("edge", width, 0, 0, width / 3),
+            sun("any", width, 2, width * 5 / 7, width / 5)};
+}
+
+/// Relative mean squares, of the passes' chain and of the CPU's.
+struct Squares {
+    double ours = 0.0;
+    double theirs = 0.0;
+
+    void add(const Squares& other) {
+        ours += other.ours;
+        theirs += other.theirs;
+    }
+    [[nodiscard]] double ratio() const { return std::sqrt(ours / theirs); }
+};
+
+class ProbeLadderTest : public ProbeChainTest {
+protected:
+    /// [environment][exponent]
+    std::vector<std::vector<Squares>> measure(const std::vector<NamedCube>& environments) {
+        const int width = environments.front().base.width();
+        const std::vector<WeightedDirection> directions = ladderDirections();
+        const std::vector<glm::dvec3> truth = lobeMeans(environments, directions);
+        std::vector<std::vector<Squares>> result;
+        for (std::size_t k = 0; k < environments.size(); ++k) {
+            const Cubemap ours = filtered(environments[k].base);
+            const Cubemap theirs = lighting::tentMips(environments[k].base);
+            const auto last = static_cast<float>(ours.levelCount() - 1);
+            std::printf("%4d %-10s", width, environments[k].name.c_str());
+            std::vector<Squares>& row = result.emplace_back();
+            for (std::size_t e = 0; e < exponentCount(width); ++e) {
+                const auto exponent = static_cast<float>(ladderExponents()[e]);
+                Squares off;
+                double norm = 0.0;
+                for (std::size_t i = 0; i < directions.size(); ++i) {
+                    const glm::vec3 d(directions[i].direction);
+                    const float level =
+                        shader::lodestar_tentLevel(d, exponent, static_cast<float>(width), last);
+                    const glm::dvec3 t =
+                        truth[(i * ladderExponents().size() + e) * environments.size() + k];
+                    const glm::dvec3 a = glm::dvec3(ours.sample(d, level)) - t;
+                    const glm::dvec3 b = glm::dvec3(theirs.sample(d, level)) - t;
+                    off.add({directions[i].weight * glm::dot(a, a),
+                             directions[i].weight * glm::dot(b, b)});
+                    norm += directions[i].weight * glm::dot(t, t);
+                }
+                row.push_back({off.ours / norm, off.theirs / norm});
+                std::printf(" %.4f/%.4f", std::sqrt(row.back().ours), std::sqrt(row.back().theirs));
+            }
+            std::printf("\n");
+        }
+        return result;
+    }
+    /// Lobes whose means a cube so wide tells: at most 3 w^2 / 16 of them on the sphere.
+    static std::size_t exponentCount(int width) {
+        std::size_t count = 0;
+        while (count < ladderExponents().size() &&
+               ladderExponents()[count] + 1 <= 3 * width * width / 16) {
+            ++count;
+        }
+        return count;
+    }
+    /// As the ladder is reported: by environment over the exponents, by exponent over the
+    /// environments.
+    void compare(const std::vector<NamedCube>& environments) {
+        const int width = environments.front().base.width();
+        Squares all;
+        std::vector<Squares> byExponent(exponentCount(width));
+        const std::vector<std::vector<Squares>> squares = measure(environments);
+        for (std::size_t k = 0; k < environments.size(); ++k) {
+            Squares sum;
+            for (std::size_t e = 0; e < byExponent.size(); ++e) {
+                sum.add(squares[k][e]);
+                byExponent[e].add(squares[k][e]);
+            }
+            EXPECT_LE(sum.ratio(), 1.1) << width << ", " << environments[k].name;
+            all.add(sum);
+        }
+        for (std::size_t e = 0; e < byExponent.size(); ++e) {
+            EXPECT_LE(byExponent[e].ratio(), 1.1) << width << ", " << ladderExponents()[e];
+        }
+        std::printf("%4d: %.3f of the CPU's\n", width, all.ratio());
+    }
+};
+
+TEST_F(ProbeLadderTest, IsAsGoodAsTheCpusChain) {
+    for (const int width : {64, 128, 256}) {
+        compare(panoramasAndShapes(width));
+    }
+}
+
+// Where one texel holds the light, it shows most by which weights a level is summed.
+TEST_F(ProbeLadderTest, OfABareSunToo) {
+    for (const int width : {64, 128, 256}) {
+        compare(suns(width));
+    }
+}
+
+} // namespace
+} // namespace lodestar::testing
