@@ -5,12 +5,15 @@
 #include <filesystem>
 #include <memory>
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/command.h"
 #include "app/commands.h"
 #include "app/display_image.h"
+#include "app/error_view.h"
 #include "app/plan_json.h"
 #include "app/scene_options.h"
 #include "io/file.h"
@@ -29,6 +32,9 @@ struct RenderOptions {
     int frames = 1;
     double fps = 0.0;            ///< 0: not given, all frames show one time
     double hoursPerSecond = 0.0; ///< with fps
+    std::string errorView;       ///< a PNG; empty: none
+    double errorScale = 25.0;    ///< per cent that have the last colour
+    int errorTaps = 1024;
 };
 
 enum class OutputKind { Png, Exr };
@@ -81,6 +87,45 @@ nlohmann::json stats(const std::vector<scene::Frame>& frames, const gl::WorkCoun
               {"lights", loaded.lights.empty() ? "" : loaded.lightsEstimator}}}};
 }
 
+/// Draws the last frame again, by its own estimators and by many taps, and writes how they differ.
+core::Result<nlohmann::json> compare(const RenderOptions& options, const LoadedScene& loaded,
+                                     const scene::Frame& frame, scene::Renderer& renderer) {
+    if (!litByEnvironment(*frame.plan)) {
+        return usage("no surface in the picture is lit by an environment, whose light is compared",
+                     "--error-view");
+    }
+    auto again = renderer.redraw(loaded.view, loaded.settings, {});
+    if (!again) {
+        return again.error();
+    }
+    ErrorView view(std::move(*again));
+    const bool watched = isatty(STDERR_FILENO) != 0;
+    for (int pass = 0; pass < kReferencePasses; ++pass) {
+        if (watched) {
+            std::fprintf(stderr, "\rreference: %d of %d passes", pass, kReferencePasses);
+        }
+        auto drawn =
+            renderer.redraw(loaded.view, loaded.settings,
+                            scene::ReferenceTaps{pass, kReferencePasses, options.errorTaps});
+        if (!drawn) {
+            return drawn.error();
+        }
+        view.add(*drawn);
+    }
+    if (watched) {
+        std::fprintf(stderr, "\r%*s\r", 40, "");
+    }
+    const core::Image picture =
+        view.picture(options.errorScale / 100.0, ErrorView::Legend::Beneath);
+    if (auto written = io::writeImage(options.errorView, picture); !written) {
+        return written.error();
+    }
+    nlohmann::json figures = toJson(view.figures(), options.errorTaps);
+    figures["file"] = options.errorView;
+    std::printf("%s\n", nlohmann::json{{"error_view", figures}}.dump().c_str());
+    return figures;
+}
+
 core::Result<void> renderAll(const RenderOptions& options, OutputKind kind, LoadedScene& loaded) {
     auto context = platform::HeadlessContext::create();
     if (!context) {
@@ -127,11 +172,17 @@ core::Result<void> renderAll(const RenderOptions& options, OutputKind kind, Load
         frames.push_back(std::move(*frame));
     }
     warn((*renderer)->probeWarnings(), loaded.lightsName);
+    nlohmann::json all =
+        stats(frames, (*device)->counters(), loaded, (*renderer)->probeWarnings(), **device);
+    if (!options.errorView.empty()) {
+        auto compared = compare(options, loaded, frames.back(), **renderer);
+        if (!compared) {
+            return compared.error();
+        }
+        all["error_view"] = std::move(*compared);
+    }
     if (!options.stats.empty()) {
-        const std::string text =
-            stats(frames, (*device)->counters(), loaded, (*renderer)->probeWarnings(), **device)
-                .dump(2) +
-            "\n";
+        const std::string text = all.dump(2) + "\n";
         if (auto written = io::writeFile(options.stats, text.data(), text.size()); !written) {
             return written;
         }
@@ -149,6 +200,12 @@ int runRender(const RenderOptions& options) {
     }
     if (!std::isfinite(options.exposure) || std::abs(options.exposure) > 64.0) {
         return fail(usage("an exposure is a number of stops within +-64", "--exposure"));
+    }
+    if (!options.errorView.empty()) {
+        auto picture = outputKind(options.errorView);
+        if (!picture || *picture != OutputKind::Png) {
+            return fail(usage("'" + options.errorView + "' does not end in .png", "--error-view"));
+        }
     }
     SceneOptions asked = options.scene;
     if (options.fps > 0.0 && asked.animation.empty()) {
@@ -200,6 +257,19 @@ void addRender(CLI::App& app, int& status) {
         ->add_option("--hours-per-second", options->hoursPerSecond,
                      "With --fps, by how many hours the day goes on in a second of the animation")
         ->check(CLI::Range(-24.0, 24.0));
+    command->add_option(
+        "--error-view", options->errorView,
+        "ERROR.png: the last frame against its environment's light by many taps a pixel,\n"
+        "in false colour with a legend in per cent; the figures go to standard output");
+    command->add_option("--error-scale", options->errorScale, "Per cent that have the last colour")
+        ->check(CLI::Range(1e-3, 1e6))
+        ->capture_default_str();
+    command
+        ->add_option(
+            "--error-taps", options->errorTaps,
+            "Taps a pixel of the reference, each a lookup by the lobe and one by the light")
+        ->check(CLI::Range(kReferencePasses, 16384))
+        ->capture_default_str();
     command->add_option("--stats", options->stats, "Write the plan, counters and times as JSON");
     command->footer(
         "Example: a model in a studio, one stop brighter\n"

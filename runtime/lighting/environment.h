@@ -97,11 +97,12 @@ using Sh9Coefficients = std::array<glm::vec3, 9>;
 /// Irradiance over pi by order-2 spherical harmonics, from texel values and exact solid angles.
 [[nodiscard]] Sh9Coefficients sh9FromCube(const Cubemap& base);
 
-/// The 16x16 irradiance cube (over pi: a constant map of 1 gives 1), level 0 only. Every texel is
+inline constexpr int kIrradianceWidth = 16;
+/// The irradiance cube (over pi: a constant map of 1 gives 1), level 0 only. Every texel is
 /// the cosine lobe summed over the map in 32x32 blocks a face, each acting along its own light's
 /// mean direction: 2e-4 RMS of the sum over all texels on panoramas, 1e-6 on a constant.
-[[nodiscard]] Cubemap irradianceCube(const Cubemap& base);
-inline constexpr int kIrradianceWidth = 16;
+/// @param side texels of a face, even
+[[nodiscard]] Cubemap irradianceCube(const Cubemap& base, int side = kIrradianceWidth);
 
 /// An environment made ready. Only the parts asked for are filled.
 struct PreparedEnvironment {

@@ -231,29 +231,30 @@ void clampedSums(const PairMoment* moments, std::size_t count, const glm::vec3* 
     }
 }
 
-glm::vec3 irradianceNormal(int face, int x, int y) {
+/// The normal of a texel. @param side of the cube of irradiance, texels
+glm::vec3 irradianceNormal(int face, int x, int y, int side) {
     const FaceAxes axes(face);
-    return glm::vec3(glm::normalize(axes.columns * coordinate(x, kIrradianceWidth) +
-                                    axes.rows * coordinate(y, kIrradianceWidth) + axes.out));
+    return glm::vec3(glm::normalize(axes.columns * coordinate(x, side) +
+                                    axes.rows * coordinate(y, side) + axes.out));
 }
 
 /// The same sums for radiance 1, by which irradiance is divided so that a constant map is exact.
 /// All faces and the four quadrants of a face have the same ones.
-std::vector<float> irradianceWeights(int width, int blocks) {
+std::vector<float> irradianceWeights(int width, int blocks, int side) {
     Cubemap one(width);
     std::fill(one.level(0).begin(), one.level(0).end(), glm::vec4(1.0f));
     const std::vector<PairMoment> moments = blockMoments(one, blocks);
-    std::vector<float> weights(kIrradianceWidth * kIrradianceWidth);
-    constexpr int kHalf = kIrradianceWidth / 2;
-    for (int y = 0; y < kHalf; ++y) {
-        for (int x = 0; x < kHalf; ++x) {
-            const glm::vec3 n = irradianceNormal(0, x, y);
+    std::vector<float> weights(static_cast<std::size_t>(side * side));
+    const int half = side / 2;
+    for (int y = 0; y < half; ++y) {
+        for (int x = 0; x < half; ++x) {
+            const glm::vec3 n = irradianceNormal(0, x, y, side);
             const glm::vec3 normals[2] = {n, n};
             glm::vec4 sums[2];
             clampedSums(moments.data(), moments.size(), normals, sums);
-            for (const int row : {y, kIrradianceWidth - 1 - y}) {
-                for (const int column : {x, kIrradianceWidth - 1 - x}) {
-                    weights[static_cast<std::size_t>(row * kIrradianceWidth + column)] = sums[0].x;
+            for (const int row : {y, side - 1 - y}) {
+                for (const int column : {x, side - 1 - x}) {
+                    weights[static_cast<std::size_t>(row * side + column)] = sums[0].x;
                 }
             }
         }
@@ -286,20 +287,21 @@ Sh9Coefficients sh9FromCube(const Cubemap& base) {
     return result;
 }
 
-Cubemap irradianceCube(const Cubemap& base) {
+Cubemap irradianceCube(const Cubemap& base, int side) {
     LODESTAR_EXPECT(!base.empty(), "irradiance is made from a map");
+    LODESTAR_EXPECT(side > 0 && side % 2 == 0, "a cube of irradiance has an even width");
     const int blocks = blockCount(base.width());
     const std::vector<PairMoment> moments = blockMoments(base, blocks);
-    const std::vector<float> weights = irradianceWeights(base.width(), blocks);
-    Cubemap cube(kIrradianceWidth);
+    const std::vector<float> weights = irradianceWeights(base.width(), blocks, side);
+    Cubemap cube(side);
     for (int face = 0; face < kFaces; ++face) {
-        for (int y = 0; y < kIrradianceWidth; ++y) {
-            for (int x = 0; x < kIrradianceWidth; x += 2) {
-                const glm::vec3 normals[2] = {irradianceNormal(face, x, y),
-                                              irradianceNormal(face, x + 1, y)};
+        for (int y = 0; y < side; ++y) {
+            for (int x = 0; x < side; x += 2) {
+                const glm::vec3 normals[2] = {irradianceNormal(face, x, y, side),
+                                              irradianceNormal(face, x + 1, y, side)};
                 glm::vec4 sums[2];
                 clampedSums(moments.data(), moments.size(), normals, sums);
-                const std::size_t i = static_cast<std::size_t>(y * kIrradianceWidth + x);
+                const std::size_t i = static_cast<std::size_t>(y * side + x);
                 cube.texel(face, x, y) = sums[0] / weights[i];
                 cube.texel(face, x + 1, y) = sums[1] / weights[i + 1];
             }

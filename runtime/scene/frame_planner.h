@@ -26,6 +26,8 @@ public:
     void forgetDraws() { plan_ = nullptr; }
     /// Whether the last description found nothing changed.
     [[nodiscard]] bool drawsKept() const { return drawsKept_; }
+    /// The plan made last; none: there was no frame yet.
+    [[nodiscard]] const std::shared_ptr<const plan::EffectPlan>& last() const { return plan_; }
     /// The plan of the input.
     [[nodiscard]] const std::shared_ptr<const plan::EffectPlan>& plan();
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "lighting/drawn_texels.h"
 #include "lighting/mips.h"
 #include "scene/gpu_scene.h"
 
@@ -114,6 +115,59 @@ void GpuEnvironment::bind(const RenderSettings& settings) const {
     if (const gl::Texture* cube = diffuseCube(settings); cube != nullptr && *cube) {
         cube->bind(kIrradianceUnit);
     }
+}
+
+core::Result<void> GpuEnvironment::prepareReference(gl::Device& device, int taps) {
+    // Bilinear lookups err by the square of the texel: a sixteenth of what 16 texels a side do.
+    constexpr int kFineIrradianceWidth = 4 * lighting::kIrradianceWidth;
+    lighting::PreparedParts parts;
+    parts.tentMips = !prepared_.tentMips;
+    if (auto made = prepare(device, parts); !made) {
+        return made;
+    }
+    if (!fineIrradiance_) {
+        auto cube = gl::Texture::makeCube(
+            device, lighting::irradianceCube(base_, kFineIrradianceWidth), "fine irradiance");
+        if (!cube) {
+            return cube.error();
+        }
+        fineIrradiance_ = std::move(*cube);
+    }
+    if (drawnTexels_.width() == taps) {
+        return {};
+    }
+    auto texels = gl::Texture::makeArray(device, taps, 2, 1, gl::ArrayFormat::Rgba32F,
+                                         "texels drawn by their light");
+    if (!texels) {
+        return texels.error();
+    }
+    drawnTexels_ = std::move(*texels);
+    const std::vector<lighting::DrawnTexel> drawn = lighting::drawnTexels(base_, taps);
+    // Of a black map none is drawn: along +Z there is 0.
+    std::vector<glm::vec4> rows(2 * static_cast<std::size_t>(taps), glm::vec4(0, 0, 1, 1));
+    std::fill(rows.begin() + taps, rows.end(), glm::vec4(0.0f));
+    const auto sum = static_cast<float>(lighting::lightSum(base_));
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+        rows[i] = glm::vec4(drawn[i].direction, sum);
+        rows[static_cast<std::size_t>(taps) + i] = glm::vec4(drawn[i].radianceOverDensity, 0.0f);
+    }
+    drawnTexels_.updateLayer(
+        0, {reinterpret_cast<const std::uint8_t*>(rows.data()), rows.size() * sizeof(glm::vec4)});
+    return {};
+}
+
+void GpuEnvironment::describeReference(blocks::LodestarFrame& block) const {
+    block.environmentCube = {static_cast<float>(tentMips_.width()),
+                             static_cast<float>(tentMips_.levelCount() - 1), 0.0f,
+                             tentMips_.scale()};
+    block.irradianceCube = {static_cast<float>(fineIrradiance_.width()), 0.0f, 0.0f,
+                            fineIrradiance_.scale()};
+}
+
+void GpuEnvironment::bindReference() const {
+    tentMips_.bind(kEnvironmentUnit);
+    fineIrradiance_.bind(kIrradianceUnit);
+    drawnTexels_.bind(kReferenceUnit);
 }
 
 } // namespace lodestar::scene

@@ -40,6 +40,13 @@ public:
     /// Binds those cubes to their units.
     void bind(const RenderSettings& settings) const;
 
+    /// Makes and uploads what pictures by many taps read: tent mips, irradiance of 64 texels a
+    /// side, and so many texels drawn by their light. @errors as prepare
+    [[nodiscard]] core::Result<void> prepareReference(gl::Device& device, int taps);
+    /// As describe and bind, of those. @pre prepared
+    void describeReference(blocks::LodestarFrame& block) const;
+    void bindReference() const;
+
 private:
     [[nodiscard]] const gl::Texture& glossyCube(const RenderSettings& settings) const;
     [[nodiscard]] const gl::Texture* diffuseCube(const RenderSettings& settings) const;
@@ -52,6 +59,7 @@ private:
     lighting::PreparedParts prepared_;
     lighting::Sh9Coefficients sh9_{};
     gl::Texture tentMips_, boxMips_, irradiance_;
+    gl::Texture fineIrradiance_, drawnTexels_; ///< for references
 };
 
 } // namespace lodestar::scene

@@ -38,10 +38,11 @@ enum TextureUnit : int {
     kFirstProbeUnit,
     kSecondProbeUnit,
     kProbeIrradianceUnit,
+    kReferenceUnit,
 };
 
 /// The names of the samplers, by unit.
-inline constexpr std::array<const char*, 19> kSamplerNames = {
+inline constexpr std::array<const char*, 20> kSamplerNames = {
     "uBaseColorTexture", "uMetallicRoughnessTexture",
     "uNormalTexture",    "uOcclusionTexture",
     "uEmissiveTexture",  "uExponentTexture",
@@ -51,7 +52,7 @@ inline constexpr std::array<const char*, 19> kSamplerNames = {
     "uRsrmLamberts",     "uRsrmGradients",
     "uShadows",          "uInstances",
     "uFirstProbe",       "uSecondProbe",
-    "uProbeIrradiance"};
+    "uProbeIrradiance",  "uReferenceLights"};
 
 class GpuScene {
 public:

@@ -96,6 +96,16 @@ gl::Defines definesFor(plan::Features features, const plan::EffectPlan& plan,
     return defines;
 }
 
+/// Irradiance is the fine cube's, whatever the settings' estimator of it.
+gl::Defines referenceDefines(plan::Features features, const plan::EffectPlan& plan,
+                             const RenderSettings& settings) {
+    RenderSettings fine = settings;
+    fine.diffuse = lighting::kDefaultDiffuse;
+    gl::Defines defines = definesFor(features, plan, fine);
+    defines.emplace_back("LODESTAR_REFERENCE", "1");
+    return defines;
+}
+
 /// What of a draw's features its depth depends on.
 plan::Features depthFeatures(plan::Features features) {
     using plan::bit;
@@ -214,6 +224,23 @@ core::Result<void> Programs::compile(const plan::PlanInput& input, const plan::E
 const MeshProgram& Programs::mesh(plan::Features features, const plan::EffectPlan& plan,
                                   const RenderSettings& settings) const {
     return meshes_.at(definesFor(features, plan, settings));
+}
+
+core::Result<void> Programs::compileReferences(const plan::EffectPlan& plan,
+                                               const RenderSettings& settings) {
+    for (const plan::Features features : plan.drawFeatures) {
+        if (auto made = add(references_, "host/mesh.vert", "host/mesh.frag",
+                            referenceDefines(features, plan, settings));
+            !made) {
+            return made;
+        }
+    }
+    return {};
+}
+
+const MeshProgram& Programs::reference(plan::Features features, const plan::EffectPlan& plan,
+                                       const RenderSettings& settings) const {
+    return references_.at(referenceDefines(features, plan, settings));
 }
 
 const MeshProgram& Programs::depth(plan::Features features, const plan::EffectPlan& plan,

@@ -44,6 +44,13 @@ public:
     /// @pre compiled
     [[nodiscard]] const MeshProgram& mesh(plan::Features features, const plan::EffectPlan& plan,
                                           const RenderSettings& settings) const;
+    /// The same with the environment by many taps, LODESTAR_REFERENCE.
+    [[nodiscard]] const MeshProgram& reference(plan::Features features,
+                                               const plan::EffectPlan& plan,
+                                               const RenderSettings& settings) const;
+    /// Compiles those of a plan's draws. @errors as compile
+    [[nodiscard]] core::Result<void> compileReferences(const plan::EffectPlan& plan,
+                                                       const RenderSettings& settings);
     [[nodiscard]] const gl::Program& backdrop(const plan::EffectPlan& plan) const;
     /// How much probes see of suns. @pre compiled, where the plan has lights
     [[nodiscard]] const gl::Program& seenSuns() const;
@@ -59,7 +66,7 @@ private:
                                          const char* fragmentFile, const gl::Defines& defines);
 
     gl::Device* device_;
-    Variants meshes_, depths_, backdrops_, compositions_, suns_;
+    Variants meshes_, references_, depths_, backdrops_, compositions_, suns_;
 };
 
 } // namespace lodestar::scene

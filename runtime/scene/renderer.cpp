@@ -34,6 +34,11 @@ using Clock = std::chrono::steady_clock;
 /// Largest side of a tile, in samples: 2048^2 of colour and depth are 80 MiB.
 constexpr int kTileSide = 2048;
 
+/// LodestarFrame::cameraPosition.
+glm::vec4 cameraOf(const View& view) {
+    return view.perspective ? glm::vec4(view.position, 1.0f) : glm::vec4(view.towardsViewer, 0.0f);
+}
+
 double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
@@ -69,10 +74,12 @@ struct Renderer::State {
     /// All of a frame but what becomes of its pixels.
     core::Result<Frame> drawFrame(const View& view, const RenderSettings& settings,
                                   const std::function<TileSink(Frame&)>& sinkFor);
-    core::Result<void> drawPicture(const View& view, const RenderSettings& settings, Frame& frame,
-                                   const TileSink& sink);
-    void drawTile(const plan::EffectPlan& plan, const RenderSettings& settings,
-                  const blocks::LodestarFrame& block);
+    /// Draws into each tile of a picture. @param block of all tiles but for their projection
+    /// @param milliseconds of the GPU's time, to be added to
+    core::Result<void> drawTiles(const View& view, const RenderSettings& settings,
+                                 blocks::LodestarFrame block,
+                                 const std::function<void(const blocks::LodestarFrame&)>& drawTile,
+                                 const TileSink& sink, double& milliseconds);
     void chooseEstimators(bool wait, plan::PlanInput& input);
     [[nodiscard]] std::shared_ptr<const plan::EffectPlan> planFrame(const View& view,
                                                                     const RenderSettings& settings);
@@ -141,13 +148,6 @@ void Renderer::State::bindLight(const RenderSettings& settings,
     shadows.bind();
     lightBlock.bind(kRsrmBinding);
     drawer.begin();
-}
-
-void Renderer::State::drawTile(const plan::EffectPlan& plan, const RenderSettings& settings,
-                               const blocks::LodestarFrame& block) {
-    target.begin();
-    bindLight(settings, block);
-    drawer.drawPicture(plan, settings, probes);
 }
 
 blocks::LodestarFrame Renderer::State::frameBlockFor(const RenderSettings& settings,
@@ -340,11 +340,11 @@ std::shared_ptr<const plan::EffectPlan> Renderer::State::planFrame(const View& v
     return planner.plan();
 }
 
-core::Result<void> Renderer::State::drawPicture(const View& view, const RenderSettings& settings,
-                                                Frame& frame, const TileSink& sink) {
-    blocks::LodestarFrame block =
-        frameBlockFor(settings, view.perspective ? glm::vec4(view.position, 1.0f)
-                                                 : glm::vec4(view.towardsViewer, 0.0f));
+core::Result<void>
+Renderer::State::drawTiles(const View& view, const RenderSettings& settings,
+                           blocks::LodestarFrame block,
+                           const std::function<void(const blocks::LodestarFrame&)>& drawTile,
+                           const TileSink& sink, double& milliseconds) {
     const int side = std::max(1, kTileSide / settings.samplesPerSide);
     for (int y = 0; y < settings.height; y += side) {
         for (int x = 0; x < settings.width; x += side) {
@@ -362,9 +362,10 @@ core::Result<void> Renderer::State::drawPicture(const View& view, const RenderSe
                 tileFromClip(tile, settings.width, settings.height) * view.clipFromWorld();
             block.worldFromClip = glm::mat4(glm::inverse(glm::dmat4(block.clipFromWorld)));
             timer.begin();
-            drawTile(*frame.plan, settings, block);
+            target.begin();
+            drawTile(block);
             timer.end();
-            frame.timesMs["draw"] += timer.milliseconds();
+            milliseconds += timer.milliseconds();
             sink(tile);
         }
     }
@@ -409,7 +410,13 @@ core::Result<Frame> Renderer::State::drawFrame(const View& view, const RenderSet
     if (!captured) {
         return captured.error();
     }
-    if (auto drawn = drawPicture(view, settings, frame, sinkFor(frame)); !drawn) {
+    const auto drawTile = [&](const blocks::LodestarFrame& block) {
+        bindLight(settings, block);
+        drawer.drawPicture(plan, settings, probes);
+    };
+    if (auto drawn = drawTiles(view, settings, frameBlockFor(settings, cameraOf(view)), drawTile,
+                               sinkFor(frame), frame.timesMs["draw"]);
+        !drawn) {
         return drawn.error();
     }
     if (!observer.empty()) {
@@ -449,6 +456,47 @@ core::Result<Frame> Renderer::draw(const View& view, const RenderSettings& setti
             state.presenter->show(state.target, origin, settings.samplesPerSide, exposure);
         };
     });
+}
+
+core::Result<core::Image> Renderer::redraw(const View& view, const RenderSettings& given,
+                                           const std::optional<ReferenceTaps>& taps) {
+    State& state = *state_;
+    const std::shared_ptr<const plan::EffectPlan> plan = state.planner.last();
+    LODESTAR_EXPECT(plan != nullptr, "a frame is drawn before it is drawn again");
+    LODESTAR_EXPECT(!taps || !state.environment.empty(), "a reference is of an environment");
+    RenderSettings settings = given;
+    settings.samplesPerSide = 1;
+    blocks::LodestarFrame block = state.frameBlockFor(settings, cameraOf(view));
+    if (taps) {
+        LODESTAR_EXPECT(taps->first >= 0 && taps->step > 0 && taps->first < taps->total &&
+                            taps->total <= 16384,
+                        "a pass takes some of up to 16384 taps");
+        if (auto made = state.environment.prepareReference(state.device, taps->total); !made) {
+            return made.error();
+        }
+        if (auto made = state.drawer.compileReferences(*plan, settings); !made) {
+            return made.error();
+        }
+        state.environment.describeReference(block);
+        const int count = (taps->total - taps->first + taps->step - 1) / taps->step;
+        block.referenceTaps = glm::vec4(taps->first, taps->step, count, taps->total);
+    }
+    core::Image picture(settings.width, settings.height, 4);
+    const auto drawTile = [&](const blocks::LodestarFrame& tile) {
+        state.bindLight(settings, tile);
+        if (taps) {
+            state.environment.bindReference();
+        }
+        state.drawer.drawSurfaces(*plan, settings, state.probes, taps.has_value());
+    };
+    double milliseconds = 0.0;
+    const auto sink = [&](const glm::ivec4& tile) {
+        (void)resolve(state.target.read(), 1, {tile.x, tile.y}, picture);
+    };
+    if (auto drawn = state.drawTiles(view, settings, block, drawTile, sink, milliseconds); !drawn) {
+        return drawn.error();
+    }
+    return picture;
 }
 
 } // namespace lodestar::scene

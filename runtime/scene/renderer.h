@@ -62,6 +62,13 @@ struct Frame {
     std::uint64_t repairedPixels = 0;             ///< pixels that were not finite and are now 0
 };
 
+/// The share of a reference's taps that one picture takes: first, first + step ... below total.
+struct ReferenceTaps {
+    int first = 0;
+    int step = 1;
+    int total = 1024; ///< [1, 16384]
+};
+
 /// What the planner is told of a scene seen through a view.
 [[nodiscard]] plan::PlanInput planInput(const Scene& scene, const View& view,
                                         const RenderSettings& settings,
@@ -115,6 +122,16 @@ public:
     /// @param exposure factor on radiance, > 0
     [[nodiscard]] core::Result<Frame> draw(const View& view, const RenderSettings& settings,
                                            float exposure);
+
+    /// What the last frame drew once more, one sample a pixel, in front of nothing: every value 0
+    /// where there is no surface. All is as it was in the frame but for the distant environment.
+    /// @param taps the environment's mean over each lobe by so many taps, as docs/estimators.md
+    /// says of `--error-view`; none: by the settings' estimators
+    /// @pre the last call was render or draw, with this view and these settings but for
+    /// samplesPerSide; with taps, an environment is set and the plan has draws that it lights
+    /// @errors NoOpenGl, Internal, as render
+    [[nodiscard]] core::Result<core::Image> redraw(const View& view, const RenderSettings& settings,
+                                                   const std::optional<ReferenceTaps>& taps);
 
 private:
     struct State;

@@ -96,7 +96,8 @@ void SceneDrawer::drawBatch(const Pass& pass, const plan::Batch& batch,
     const io::GltfMaterial& material = materialOf(scene_, primitive);
     const plan::Features features = pass.features[batch.first];
     if (state.program == nullptr || state.features != features) {
-        state.program = &programs_.mesh(features, plan, settings);
+        state.program = pass.reference ? &programs_.reference(features, plan, settings)
+                                       : &programs_.mesh(features, plan, settings);
         state.features = features;
         const bool blended = plan::has(features, plan::Feature::AlphaBlend);
         blended ? glEnable(GL_BLEND) : glDisable(GL_BLEND);
@@ -144,6 +145,15 @@ void SceneDrawer::drawPicture(const plan::EffectPlan& plan, const RenderSettings
     }
     if (!backdropDrawn) {
         drawBackdrop(plan);
+    }
+}
+
+void SceneDrawer::drawSurfaces(const plan::EffectPlan& plan, const RenderSettings& settings,
+                               const GpuProbes& probes, bool reference) {
+    const Pass pass{plan.drawOrder, plan.drawFeatures, plan.drawChoices, 0, reference};
+    PassState state;
+    for (const plan::Batch& batch : plan.batches) {
+        drawBatch(pass, batch, plan, settings, probes, state);
     }
 }
 

@@ -36,6 +36,12 @@ public:
         return programs_.compile(input, plan, settings);
     }
 
+    /// @errors as compile
+    [[nodiscard]] core::Result<void> compileReferences(const plan::EffectPlan& plan,
+                                                       const RenderSettings& settings) {
+        return programs_.compileReferences(plan, settings);
+    }
+
     [[nodiscard]] const Programs& programs() const { return programs_; }
 
     /// To be called where a pass begins: its target is bound, but no texture and no draw state.
@@ -43,6 +49,9 @@ public:
     /// The picture: what is opaque, the backdrop, what is blended.
     void drawPicture(const plan::EffectPlan& plan, const RenderSettings& settings,
                      const GpuProbes& probes);
+    /// Its draws without a backdrop. @param reference with the environment by many taps: compiled
+    void drawSurfaces(const plan::EffectPlan& plan, const RenderSettings& settings,
+                      const GpuProbes& probes, bool reference);
     /// Those that a face of a probe sees. @param face into EffectPlan::probeFaces
     void drawFace(const plan::EffectPlan& plan, std::size_t face, const RenderSettings& settings,
                   const GpuProbes& probes);
@@ -59,6 +68,7 @@ private:
         std::span<const plan::Features> features; ///< in its order
         std::span<const plan::ProbeChoice> choices;
         std::size_t before = 0; ///< instances that stand before the order's first
+        bool reference = false; ///< by the reference's programs
     };
     /// What it has set so far.
     struct PassState {

@@ -6,7 +6,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "font.h"
+#include "core/font.h"
 #include "lodestar/display.glsl"
 
 namespace lodestar::samples {
@@ -16,7 +16,7 @@ constexpr int kMargin = 24;
 constexpr int kGap = 6; ///< between pictures
 constexpr int kTitleScale = 3;
 constexpr int kTextScale = 2;
-constexpr int kLine = (kFontAscent + kFontDescent) * kTextScale;
+constexpr int kLine = (core::kFontAscent + core::kFontDescent) * kTextScale;
 
 const glm::vec3 kPaper{0.105f, 0.112f, 0.125f};
 const glm::vec3 kMount{0.150f, 0.160f, 0.176f}; ///< behind a picture's transparent parts
@@ -156,14 +156,19 @@ int rowHeight(const SheetRow& row, const RowLayout& layout) {
            14;
 }
 
+void write(core::Image& sheet, int x, int y, const std::string& text, int scale,
+           const glm::vec3& color) {
+    core::drawText(sheet, x, y, text, scale, {color.r, color.g, color.b});
+}
+
 void drawCentred(core::Image& sheet, int x, int width, int y, const std::string& text,
                  const glm::vec3& color) {
-    drawText(sheet, x + (width - textWidth(text, kTextScale)) / 2, y, text, kTextScale, color);
+    write(sheet, x + (width - core::textWidth(text, kTextScale)) / 2, y, text, kTextScale, color);
 }
 
 void drawRow(core::Image& sheet, const SheetRow& row, const RowLayout& layout, int y) {
     if (!row.label.empty()) {
-        drawText(sheet, kMargin, y, row.label, kTextScale, kInk);
+        write(sheet, kMargin, y, row.label, kTextScale, kInk);
         y += kLine + 6;
     }
     int used = kGap * (static_cast<int>(row.cells.size()) - 1);
@@ -184,7 +189,7 @@ void drawRow(core::Image& sheet, const SheetRow& row, const RowLayout& layout, i
 core::Image drawSheet(const Sheet& sheet) {
     const int inner = sheet.width - 2 * kMargin;
     const int titleHeight =
-        sheet.title.empty() ? 0 : (kFontAscent + kFontDescent) * kTitleScale + 8;
+        sheet.title.empty() ? 0 : (core::kFontAscent + core::kFontDescent) * kTitleScale + 8;
     const int noteHeight = sheet.note.empty() ? 0 : kLine + 10;
     const int headHeight = sheet.columns.empty() ? 0 : kLine + 8;
     std::vector<RowLayout> layouts;
@@ -196,9 +201,9 @@ core::Image drawSheet(const Sheet& sheet) {
     core::Image image(sheet.width, height, 3);
     fill(image, 0, 0, sheet.width, height, kPaper);
     int y = kMargin;
-    drawText(image, kMargin, y, sheet.title, kTitleScale, kInk);
+    write(image, kMargin, y, sheet.title, kTitleScale, kInk);
     y += titleHeight;
-    drawText(image, kMargin, y, sheet.note, kTextScale, kFaint);
+    write(image, kMargin, y, sheet.note, kTextScale, kFaint);
     y += noteHeight;
     const int count = static_cast<int>(sheet.columns.size());
     for (int i = 0; i < count; ++i) {

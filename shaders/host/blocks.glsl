@@ -45,6 +45,7 @@ LODESTAR_BLOCK(LodestarFrame)
     vec4 irradianceCube;    ///< face width, last level, least level (bias), radiance scale
     vec4 sh9[9];            ///< irradiance over pi
     vec4 written;           ///< x: factor on radiance as it is written; y: greatest value written
+    vec4 referenceTaps;     ///< of a pass of LODESTAR_REFERENCE: first, step, how many; taps in all
     vec4 lightCount;        ///< x: how many of the lights are used
     vec4 lightPosition[LODESTAR_MAX_LIGHTS];  ///< xyz position, w 1; or direction to the light, w 0
     vec4 lightColor[LODESTAR_MAX_LIGHTS];     ///< rgb irradiance or radiant intensity, w 1/range^2

@@ -3,6 +3,13 @@
 #include "lodestar/sh9.glsl"
 #include "lodestar/environment.glsl"
 #include "host/hooks.glsl"
+#ifndef LODESTAR_REFERENCE
+#define LODESTAR_REFERENCE 0
+#endif
+#if LODESTAR_REFERENCE
+#include "lodestar/reference.glsl"
+#include "host/reference.glsl"
+#endif
 
 in vec3 vPosition;
 in vec3 vNormal;
@@ -109,7 +116,11 @@ void main() {
     cube.leastLevel = environmentCube.z;
 #endif
     vec3 reflection = 2.0 * dot(here.normal, view) * here.normal - view;
+#if LODESTAR_REFERENCE
+    radiance += open * referenceEnvironment(cube, here, reflection, dFdx(reflection), dFdy(reflection));
+#else
     radiance += open * lodestar_environment(cube, here, dFdx(reflection), dFdy(reflection));
+#endif
 #endif
 #if LODESTAR_RSRM_LIGHTS
     radiance += rsrmLights(here);

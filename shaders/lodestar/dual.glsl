@@ -38,6 +38,7 @@ using vec4 = glm::vec<4, Real>;
 using mat3 = glm::mat<3, 3, Real>;
 using glm::abs;
 using glm::clamp;
+using glm::cos;
 using glm::cross;
 using glm::dot;
 using glm::exp;
@@ -49,6 +50,7 @@ using glm::max;
 using glm::min;
 using glm::mix;
 using glm::normalize;
+using glm::sin;
 using glm::sqrt;
 } // namespace lodestar::LODESTAR_NAMESPACE
 

@@ -6,6 +6,7 @@
 #include "lodestar/lobes.glsl"
 #include "lodestar/power.glsl"
 #include "lodestar/probes.glsl"
+#include "lodestar/reference.glsl"
 #include "lodestar/rsrm.glsl"
 #include "lodestar/sh9.glsl"
 #include "lodestar/taps.glsl"

@@ -236,6 +236,60 @@ Tolerance directTolerance(const GlslCase& p, const glm::dvec4&, int) {
     return same(nDotL * (highlight + lambert) + 4.0 * u * (normaliser * lobe + 0.32) + kTiny);
 }
 
+// A sum and a quotient; turns up to 31, two products and a sum, of which the fraction is left.
+Tolerance spiralTolerance(const GlslCase&, const glm::dvec4& v, int) {
+    return {3.0 * u * v.x, 3.0 * 31.0 * u, 0.0, 0.0};
+}
+
+Tolerance tapOfDirectionTolerance(const GlslCase& p, const glm::dvec4& value, int) {
+    const glm::dvec3 n = vec(p[0]);
+    const glm::dvec3 v = vec(p[1]);
+    const glm::dvec3 l = vec(p[2]);
+    const double s = repaired(p[0].w);
+    const glm::dvec3 h = shader_double::lodestar_safeNormalize(l + v, -n);
+    const double dh = 2.0 * u / std::max(glm::length(l + v), 1e-3) + 5.0 * u;
+    const double hDotV = std::max(glm::dot(h, v), 0.0);
+    const double hDotVError = dh + 3.0 * u;
+    const glm::dvec3 chord = n - h;
+    const double d = 0.5 * glm::dot(chord, chord);
+    const double lobe =
+        glm::dot(n, h) > 0.0 ? shader_double::lodestar_cosinePowerFromChord(d, s) : 0.0;
+    const double lobeError =
+        lobe > 0.0 ? chordError(lobe, d, s, glm::length(chord) * (dh + u) + 4.0 * u * d) : 0.0;
+    // s + 1, the product with pi and the quotient 6 u more.
+    const double over = (s + 1.0) / (8.0 * std::acos(-1.0));
+    const double least = std::max(hDotV - hDotVError, 1e-4);
+    const double density = over * lobeError / least + value.y * (hDotVError / least + 6.0 * u);
+    return {hDotVError + 3.0 * u * hDotV + u, density + kTiny, 0.0, 0.0};
+}
+
+// The point is off by 1.5 u of itself; a sine and a cosine by 2^-11, which is what [Vulkan] allows:
+// GLSL says nothing.
+Tolerance lobeTapTolerance(const GlslCase& p, const glm::dvec4&, int) {
+    const double s = repaired(p[0].w);
+    const double y = 0.0005 + 0.999 * static_cast<double>(p[4].y);
+    const double x = std::log(y) / (s + 1.0);
+    const double dx = (std::log(2.0) * log2Error(y) + 1.5 * u) / (s + 1.0) + 4.0 * u * std::abs(x);
+    const double d = -std::expm1(x);
+    const double dd = dx + 6.0 * u * d + (x < -0.0099 ? (4.0 + 2.0 * std::abs(x)) * u : 0.0);
+    const double sine = std::sqrt(d * (2.0 - d));
+    const double dSine = std::min(dd / std::max(sine, 1e-12), std::sqrt(2.0 * dd)) + 4.0 * u * sine;
+    // h: its part along n, the sine along two axes, each off by the angle's functions and 8 u.
+    const double dh = dd + 1.5 * (dSine + sine * (0x1p-11 + 8.0 * u)) + 4.0 * u;
+    // l = 2 (h.v) h - v, made unit.
+    const double direction = 4.0 * dh + 20.0 * u;
+    return {direction, direction, direction, direction + dh + 8.0 * u};
+}
+
+// Products and a quotient 6 u under the logarithm (1.44 of them), then texelSizeLevel and two sums.
+Tolerance tapLevelTolerance(const GlslCase& p, const glm::dvec4& v, int k) {
+    const double texels = 0.4774648 * 65536.0 / (1024.0 * (0.001 + static_cast<double>(p[4].y)));
+    GlslCase direction = p;
+    direction[0] = p[2];
+    return same(0.5 * (log2Error(texels) + 10.0 * u) + texelSizeTolerance(direction, v, k)[0] +
+                2.0 * u * (std::abs(v.x) + 1.0));
+}
+
 Tolerance sh9Tolerance(const GlslCase& p, const glm::dvec4&, int) {
     // Each term is a coefficient times at most 2, four roundings (8 u), and eight sums of half a
     // unit of at most twice the coefficients' sum (8 u).

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "font.h"
+#include "core/font.h"
 
 #include <algorithm>
 #include <string_view>
 
-namespace lodestar::samples {
+namespace lodestar::core {
 namespace {
 
 /// Glyphs from '!' to '~': rows from the top, each ended by '/', a dot or its absence.
@@ -120,10 +120,10 @@ int glyphWidth(std::string_view glyph) {
     return glyph.empty() ? kSpaceWidth : static_cast<int>(std::min(glyph.find('/'), glyph.size()));
 }
 
-void fillDot(core::Image& image, int x, int y, int scale, const glm::vec3& color) {
+void fillDot(Image& image, int x, int y, int scale, const std::array<float, 3>& color) {
     for (int j = std::max(y, 0); j < std::min(y + scale, image.height()); ++j) {
         for (int i = std::max(x, 0); i < std::min(x + scale, image.width()); ++i) {
-            std::copy_n(&color.x, 3, image.at(i, j));
+            std::copy_n(color.data(), 3, image.at(i, j));
         }
     }
 }
@@ -138,8 +138,8 @@ int textWidth(const std::string& text, int scale) {
     return std::max(width - 1, 0) * scale;
 }
 
-void drawText(core::Image& image, int x, int y, const std::string& text, int scale,
-              const glm::vec3& color) {
+void drawText(Image& image, int x, int y, const std::string& text, int scale,
+              const std::array<float, 3>& color) {
     for (const char character : text) {
         const std::string_view glyph = glyphOf(character);
         int column = 0;
@@ -159,4 +159,4 @@ void drawText(core::Image& image, int x, int y, const std::string& text, int sca
     }
 }
 
-} // namespace lodestar::samples
+} // namespace lodestar::core

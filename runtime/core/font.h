@@ -4,13 +4,12 @@
 // each glyph as wide as it is drawn. Other characters show as a box.
 #pragma once
 
+#include <array>
 #include <string>
-
-#include <glm/vec3.hpp>
 
 #include "core/image.h"
 
-namespace lodestar::samples {
+namespace lodestar::core {
 
 inline constexpr int kFontAscent = 7;
 inline constexpr int kFontDescent = 2;
@@ -19,7 +18,8 @@ inline constexpr int kFontDescent = 2;
 [[nodiscard]] int textWidth(const std::string& text, int scale);
 
 /// Draws a line of text with its top left corner at (x, y); what lies outside the image is cut off.
-void drawText(core::Image& image, int x, int y, const std::string& text, int scale,
-              const glm::vec3& color);
+/// @param image of three channels or four, of which the first three are written
+void drawText(Image& image, int x, int y, const std::string& text, int scale,
+              const std::array<float, 3>& color);
 
-} // namespace lodestar::samples
+} // namespace lodestar::core
