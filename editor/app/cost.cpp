@@ -259,6 +259,17 @@ core::Result<void> writeText(const std::filesystem::path& file, const std::strin
     return io::writeFile(file, text.data(), text.size());
 }
 
+/// One channel in false colour, as a PNG holds it. @param most the value that is lightest
+core::Image falseColorPicture(const core::Image& values, double most) {
+    core::Image picture(values.width(), values.height(), 4);
+    for (std::size_t i = 0; i < values.pixels().size(); ++i) {
+        const glm::vec3 color = falseColor(static_cast<double>(values.pixels()[i]) / most);
+        std::copy_n(&color.x, 3, picture.pixels().begin() + static_cast<std::ptrdiff_t>(4 * i));
+        picture.pixels()[4 * i + 3] = 1.0f;
+    }
+    return picture;
+}
+
 core::Result<std::vector<std::filesystem::path>>
 writePictures(const CostTable& table, const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> files;

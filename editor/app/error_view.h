@@ -64,6 +64,10 @@ private:
 
 [[nodiscard]] nlohmann::json toJson(const ErrorFigures& figures, int taps);
 
+/// The error that has the last colour, where nothing else is asked for.
+inline constexpr double kErrorScale = 0.25;
+/// Taps of a reference where nothing else is asked for.
+inline constexpr int kErrorTaps = 1024;
 /// A reference is drawn in so many passes, each of the same share of its taps.
 inline constexpr int kReferencePasses = 16;
 

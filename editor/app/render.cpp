@@ -30,11 +30,11 @@ struct RenderOptions {
     double exposure = 0.0; ///< EV
     int samples = 0;       ///< a pixel; 0: 4 for PNG, 1 for EXR
     int frames = 1;
-    double fps = 0.0;            ///< 0: not given, all frames show one time
-    double hoursPerSecond = 0.0; ///< with fps
-    std::string errorView;       ///< a PNG; empty: none
-    double errorScale = 25.0;    ///< per cent that have the last colour
-    int errorTaps = 1024;
+    double fps = 0.0;                        ///< 0: not given, all frames show one time
+    double hoursPerSecond = 0.0;             ///< with fps
+    std::string errorView;                   ///< a PNG; empty: none
+    double errorScale = 100.0 * kErrorScale; ///< per cent that have the last colour
+    int errorTaps = kErrorTaps;
 };
 
 enum class OutputKind { Png, Exr };

@@ -31,6 +31,7 @@ enum class Action {
     Darker,
     ChooseSpecular,
     ChooseDiffuse,
+    ErrorView,
     Screenshot,
     Help,
     Text,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
@@ -109,6 +110,11 @@ void Overlay::draw(const OverlayText& text, int width, int height, float content
     // is shown as it should be; a viewer at rest draws only one.
     for (int pass = 0; pass < 3; ++pass) {
         ImGui::NewFrame();
+        if (text.picture != 0) {
+            ImGui::GetBackgroundDrawList()->AddImage(
+                reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(text.picture)),
+                {0.0f, 0.0f}, size);
+        }
         layOut(text, size, 8.0f * fontScale_);
         ImGui::EndFrame();
     }

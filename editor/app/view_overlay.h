@@ -14,6 +14,7 @@ struct OverlayText {
     std::string message;            ///< bottom; empty: none
     bool messageIsError = false;
     bool help = false;
+    unsigned picture = 0; ///< a GL texture of the framebuffer's size that covers it; 0: none
 };
 
 /// Dear ImGui without input and without files. Made and ended with the window's context current.

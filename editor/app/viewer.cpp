@@ -114,6 +114,7 @@ scene::View Viewer::view() const {
 }
 
 void Viewer::changed(bool measureAgain) {
+    error_.reset();
     framesWanted_ = std::max(framesWanted_, measureAgain ? 2 : 1);
     if (measureAgain) {
         measured_ = false;
@@ -219,17 +220,21 @@ bool Viewer::moving() const {
 }
 
 bool Viewer::wantsFrame() const {
-    return framesWanted_ > 0 || (coarse_ && !moving());
+    return framesWanted_ > 0 || ((coarse_ || errorPending()) && !moving());
 }
 
 double Viewer::patience() const {
     if (wantsFrame() || playing_ || dayPlaying_ || flyDirection() != glm::vec3(0.0f)) {
         return 0.0;
     }
-    return coarse_ ? kMotionSeconds : std::numeric_limits<double>::infinity();
+    return coarse_ || errorPending() ? kMotionSeconds : std::numeric_limits<double>::infinity();
 }
 
 core::Result<void> Viewer::drawFrame() {
+    if (framesWanted_ == 0 && !coarse_ && errorPending()) {
+        return drawErrorPass();
+    }
+    error_.reset();
     scene::RenderSettings settings = settings_;
     const bool coarse = moving() && fineMs_ > kSmoothMs && options_.samplesPerSide > 1;
     settings.samplesPerSide = coarse ? 1 : options_.samplesPerSide;
@@ -252,11 +257,15 @@ core::Result<void> Viewer::drawFrame() {
         message_ = frame.error().message();
         messageIsError_ = true;
     }
+    showOverlay();
+    return {};
+}
+
+void Viewer::showOverlay() {
     if (const OverlayText shown = text();
-        !shown.lines.empty() || shown.help || !shown.message.empty()) {
+        !shown.lines.empty() || shown.help || !shown.message.empty() || shown.picture != 0) {
         overlay_.draw(shown, settings_.width, settings_.height, contentScale_);
     }
-    return {};
 }
 
 void Viewer::note(const scene::Frame& frame, int samplesPerSide) {
@@ -328,6 +337,7 @@ std::vector<std::string> Viewer::probeLines() const {
 OverlayText Viewer::text() const {
     OverlayText text;
     text.help = help_;
+    text.picture = error_ && error_->passes() > 0 ? errorPicture_.id() : 0;
     if (!textShown_ && !help_) {
         return text;
     }
@@ -343,6 +353,10 @@ OverlayText Viewer::text() const {
         animationText(),
         lights_.empty() ? "no hour: no lighting document" : hourText(),
         timeText()};
+    if (error_) {
+        text.lines.push_back("error of " + std::to_string(error_->passes()) + " / " +
+                             std::to_string(kReferencePasses) + " passes");
+    }
     for (std::string& line : probeLines()) {
         text.lines.push_back(std::move(line));
     }
@@ -360,12 +374,18 @@ void Viewer::saveScreenshot() {
     if (settings_.width < 1 || settings_.height < 1) {
         return;
     }
-    scene::RenderSettings settings = settings_;
-    settings.samplesPerSide = options_.samplesPerSide;
-    auto frame = document_.renderer->render(view(), settings);
-    if (!frame) {
-        say(frame.error().message(), true);
-        return;
+    core::Image picture;
+    if (error_ && error_->passes() > 0) {
+        picture = error_->picture(kErrorScale, ErrorView::Legend::Beneath);
+    } else {
+        scene::RenderSettings settings = settings_;
+        settings.samplesPerSide = options_.samplesPerSide;
+        auto frame = document_.renderer->render(view(), settings);
+        if (!frame) {
+            say(frame.error().message(), true);
+            return;
+        }
+        picture = toDisplay(frame->radiance, exposure_);
     }
     const std::string stem = std::filesystem::path(document_.path).stem().string();
     std::string path;
@@ -376,7 +396,7 @@ void Viewer::saveScreenshot() {
         std::snprintf(digits, sizeof digits, "%03d", ++number);
         path = stem + "-" + digits + ".png";
     } while (std::filesystem::exists(path, ignored) && number < 1000000);
-    if (auto written = io::writeImage(path, toDisplay(frame->radiance, exposure_)); !written) {
+    if (auto written = io::writeImage(path, picture); !written) {
         say(written.error().message(), true);
         return;
     }

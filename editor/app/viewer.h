@@ -13,9 +13,11 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "app/error_view.h"
 #include "app/scene_options.h"
 #include "app/view_keys.h"
 #include "app/view_overlay.h"
+#include "gl/texture.h"
 #include "platform/window.h"
 #include "scene/animation.h"
 #include "scene/camera_controller.h"
@@ -104,6 +106,11 @@ private:
     void drag(float x, float y);
     void wheel(float steps);
     void saveScreenshot();
+    void toggleErrorView();
+    /// Whether the error view wants a pass more: nothing has moved since the last frame.
+    [[nodiscard]] bool errorPending() const;
+    [[nodiscard]] core::Result<void> drawErrorPass();
+    void showOverlay();
     void say(std::string message, bool isError);
     [[nodiscard]] scene::CameraPose& moved();
     [[nodiscard]] glm::vec3 flyDirection() const;
@@ -150,6 +157,10 @@ private:
     bool closing_ = false;
     std::string message_;
     bool messageIsError_ = false;
+
+    bool errorShown_ = false;        ///< the error view in place of the picture
+    std::optional<ErrorView> error_; ///< of the last frame; none: no pass has been drawn
+    gl::Texture errorPicture_;       ///< what is shown of it
 
     int framesWanted_ = 2;
     bool coarse_ = false; ///< the last frame had fewer samples than a still one

@@ -197,6 +197,9 @@ void Viewer::perform(const KeyBinding& binding) {
     case Action::ChooseDiffuse:
         chooseEstimator(binding);
         break;
+    case Action::ErrorView:
+        toggleErrorView();
+        break;
     case Action::Screenshot:
         saveScreenshot();
         break;

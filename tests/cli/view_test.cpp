@@ -272,5 +272,33 @@ TEST(Viewer, WithoutADisplayItSaysSoAndIsStatusFour) {
     EXPECT_NE(run.err.find("display"), std::string::npos) << run.err;
 }
 
+/// The rows above a picture's legend.
+core::Image upperPart(const core::Image& picture) {
+    core::Image part(320, 190, picture.channels());
+    std::copy_n(picture.pixels().begin(), part.pixels().size(), part.pixels().begin());
+    return part;
+}
+
+TEST_F(ViewerRun, ShowsTheErrorThatRenderWrites) {
+    const RunResult run =
+        runLodestar({"render", scene_, "--environment", kEnvironment, "--size", "320x240", "-o",
+                     folder_.file("rendered.png"), "--error-view", folder_.file("error.png")});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const core::Image error = upperPart(readPicture(folder_.file("error.png")));
+    const core::Image still = readPicture(folder_.file("rendered.png"));
+    key("Tab"); // no text over the picture
+    EXPECT_TRUE(differsSoon(still, 0.0, 0.001)) << "the window does not show what render gives";
+    key("v");
+    EXPECT_TRUE(soon([&] {
+        const core::Image now = shown();
+        return now.width() == 320 && now.height() == 240 &&
+               compare(upperPart(now), error, kSteps).failingFraction <= 0.001;
+    })) << "the passes do not come to what render draws";
+    key("v");
+    EXPECT_TRUE(differsSoon(still, 0.0, 0.001)) << "V does not lead back";
+    key("Escape");
+    EXPECT_EQ(run_.get().status, 0);
+}
+
 } // namespace
 } // namespace lodestar::testing
