@@ -11,6 +11,7 @@
 
 #include "lodestar/cube.glsl"
 #include "lodestar/lobes.glsl"
+#include "lodestar/taps.glsl"
 #include "numerics/blinn_lobe.h"
 
 namespace lodestar::shader {
