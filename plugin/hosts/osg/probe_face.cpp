@@ -17,6 +17,16 @@ constexpr unsigned kSamples = 4;
 constexpr unsigned kForced =
     osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE | osg::StateAttribute::PROTECTED;
 
+/// Allocates a face. OpenSceneGraph's own way gives storage to textures that it takes from those
+/// that have ended a second time, which OpenGL refuses where storage is immutable.
+struct Allocated : osg::Texture2D::SubloadCallback {
+    void load(const osg::Texture2D& texture, osg::State&) const override {
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F_ARB, texture.getTextureWidth(),
+                     texture.getTextureHeight(), 0, GL_RGBA, GL_FLOAT, nullptr);
+    }
+    void subload(const osg::Texture2D&, osg::State&) const override {}
+};
+
 } // namespace
 
 /// OpenSceneGraph asks the loader alone whether a driver has NVIDIA's samples of coverage; GLVND's
@@ -68,6 +78,7 @@ ProbeFace::ProbeFace(unsigned width, Cull cull)
     texture_->setSourceType(GL_FLOAT);
     texture_->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
     texture_->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
+    texture_->setSubloadCallback(new Allocated);
     attach(COLOR_BUFFER, texture_.get(), 0, 0, false, kSamples, kSamples);
     setInitialDrawCallback(new Begun);
     setFinalDrawCallback(new Done);
