@@ -141,6 +141,7 @@ void Lighting::update(const osg::FrameStamp* stamp) {
     }
     const std::shared_ptr<ThreadContexts> here = ThreadContexts::ofThisThread();
     here->endReleased();
+    std::erase_if(retired_, [](const osg::ref_ptr<ProbeFace>& face) { return face->isLeft(); });
     if (lit_ != nullptr && contexts_ != here) {
         close(); // updates have moved to another thread
     }
@@ -187,6 +188,9 @@ void Lighting::open() {
 }
 
 void Lighting::close() {
+    if (probes_) {
+        probes_->retire(retired_);
+    }
     probes_.reset();
     lights_.reset();
     state_ = nullptr;

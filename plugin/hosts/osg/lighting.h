@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <osg/Group>
 #include <osg/StateSet>
@@ -19,6 +20,7 @@ class CullVisitor;
 namespace lodestar::osghost {
 
 class Lights;
+class ProbeFace;
 class Probes;
 class ThreadContexts;
 
@@ -102,6 +104,8 @@ private:
     hosts::LitContext* lit_ = nullptr;         ///< one of theirs
     std::unique_ptr<Lights> lights_;
     std::unique_ptr<Probes> probes_; ///< null: the document has none
+    /// Faces of probes before; they end in updates, once nothing draws them.
+    std::vector<osg::ref_ptr<ProbeFace>> retired_;
     osg::ref_ptr<osg::StateSet> state_;
 };
 

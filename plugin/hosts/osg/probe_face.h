@@ -40,6 +40,8 @@ public:
     /// @return whether it is this call that is to cull it
     [[nodiscard]] bool beginCull();
     void forgetStates() { states_.clear(); }
+    /// Whether no cull or draw thread holds it any more.
+    [[nodiscard]] bool isLeft() const { return referenceCount() == 1 && stage_ != Culled; }
 
     /// In place of children.
     void traverse(osg::NodeVisitor& visitor) override;

@@ -407,6 +407,16 @@ void Probes::dress(osgUtil::CullVisitor& cull, osgUtil::StateGraph* top) const {
     dress(cull, top, pairs_, false);
 }
 
+void Probes::retire(std::vector<osg::ref_ptr<ProbeFace>>& into) {
+    for (auto* faces : {&waiting_, &idle_}) {
+        for (osg::ref_ptr<ProbeFace>& face : *faces) {
+            face->forgetStates();
+            into.push_back(std::move(face));
+        }
+        faces->clear();
+    }
+}
+
 void Probes::releaseGLObjects(osg::State* state) const {
     for (const auto* faces : {&waiting_, &idle_}) {
         for (const osg::ref_ptr<ProbeFace>& face : *faces) {

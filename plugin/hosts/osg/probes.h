@@ -53,6 +53,8 @@ public:
     void dress(osgUtil::CullVisitor& cull, osgUtil::StateGraph* top) const;
 
     void releaseGLObjects(osg::State* state) const;
+    /// Hands over its faces, which threads that draw may hold yet. None is culled any more.
+    void retire(std::vector<osg::ref_ptr<ProbeFace>>& into);
 
 private:
     /// By what they hold. Draws that hold the same share one.
