@@ -33,7 +33,7 @@ vec3 referenceSpecular(LodestarCube cube, LodestarSurface surface, float footpri
     float weight = 0.0;
     for (float i = 0.0; i < referenceTaps.z; i += 1.0) {
         float k = referenceTaps.x + referenceTaps.y * i;
-        LodestarTap tap = lodestar_lobeTap(lodestar_spiralPoint(k, referenceTaps.w), surface.normal, surface.view, s);
+        LodestarTap tap = lodestar_drawnTap(lodestar_spiralPoint(k, referenceTaps.w), surface.normal, surface.view, s);
         float level = referenceLevel(tap, cube, footprint);
         vec3 radiance = lodestar_host_cube(cube.slot, tap.direction, level).rgb;
         sum += tap.weight * radiance * (tap.density / (tap.density + light * sumOf(radiance)));

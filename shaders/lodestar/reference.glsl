@@ -14,7 +14,7 @@ LODESTAR_BEGIN
 struct LodestarTap {
     vec3 direction; ///< towards the light, unit
     Real weight;    ///< (n.l) (h.v), 0 below the horizon; a mean over drawn taps is sum w L / sum w
-    Real density;   ///< by which lodestar_lobeTap draws it, per steradian
+    Real density;   ///< by which lodestar_drawnTap draws it, per steradian
 };
 
 /// The k-th of so many points of the golden spiral: t = (k + 1/2) / total in (0, 1), and the angle
@@ -45,7 +45,7 @@ LODESTAR_FN LodestarTap lodestar_tapOfDirection(vec3 l, vec3 n, vec3 v, Real exp
 
 /// A tap drawn by that density: y = (n.h)^(s + 1) is even in (0, 1).
 /// @param point of lodestar_spiralPoint  @param n, v unit  @param exponent Blinn-Phong [0, 1e7]
-LODESTAR_FN LodestarTap lodestar_lobeTap(vec2 point, vec3 n, vec3 v, Real exponent) {
+LODESTAR_FN LodestarTap lodestar_drawnTap(vec2 point, vec3 n, vec3 v, Real exponent) {
     Real s = lodestar_repairExponent(exponent);
     // log of n.h; 1 - n.h by its series where n.h would lose it.
     Real logarithm = log2(point.x) * LODESTAR_LITERAL(0.693147180559945309) / (s + 1.0f);

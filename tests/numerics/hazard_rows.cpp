@@ -8,6 +8,7 @@
 #include "lodestar/power.glsl"
 #include "lodestar/rsrm.glsl"
 #include "lodestar/sh9.glsl"
+#include "lodestar/taps.glsl"
 
 namespace lodestar::shader {
 namespace {

@@ -10,6 +10,7 @@
 #include "lodestar/cube.glsl"
 #include "lodestar/lobes.glsl"
 #include "lodestar/probes.glsl"
+#include "lodestar/taps.glsl"
 #include "numerics/property_inputs.h"
 
 namespace lodestar::shader {

@@ -265,7 +265,7 @@ Tolerance tapOfDirectionTolerance(const GlslCase& p, const glm::dvec4& value, in
 
 // The point is off by 1.5 u of itself; a sine and a cosine by 2^-11, which is what [Vulkan] allows:
 // GLSL says nothing.
-Tolerance lobeTapTolerance(const GlslCase& p, const glm::dvec4&, int) {
+Tolerance drawnTapTolerance(const GlslCase& p, const glm::dvec4&, int) {
     const double s = repaired(p[0].w);
     const double y = 0.0005 + 0.999 * static_cast<double>(p[4].y);
     const double x = std::log(y) / (s + 1.0);

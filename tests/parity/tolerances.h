@@ -57,7 +57,7 @@ ToleranceFunction specularOfTentsTolerance;
 ToleranceFunction specularRingTolerance;
 ToleranceFunction specularTapsTolerance;
 ToleranceFunction oneMinusExpTolerance;
-ToleranceFunction lobeTapTolerance;
+ToleranceFunction drawnTapTolerance;
 ToleranceFunction environmentTolerance;
 ToleranceFunction rsrmRefinedColumnTolerance;
 ToleranceFunction rsrmColumnTolerance;
