@@ -14,10 +14,11 @@
 namespace lodestar::lighting {
 namespace {
 
+/// As floats.
 bool finite(const glm::dmat4& m) {
     for (int c = 0; c < 4; ++c) {
         for (int r = 0; r < 4; ++r) {
-            if (!std::isfinite(m[c][r])) {
+            if (!std::isfinite(static_cast<float>(m[c][r]))) {
                 return false;
             }
         }
@@ -101,15 +102,14 @@ std::optional<PlacedVolume> place(const ProbeVolume& volume, const glm::mat4& wo
                                   bool outward) {
     const glm::dmat4 worldFromVolume =
         glm::translate(glm::dmat4(worldFromNode), glm::dvec3(volume.center));
-    const glm::dvec3 half = 0.5 * volume.size;
-    const bool inside = half.x > 0.0 && half.y > 0.0 && half.z > 0.0 && std::isfinite(half.x) &&
-                        std::isfinite(half.y) && std::isfinite(half.z);
+    // As floats, of which the least sizes have none left and the greatest are infinite.
+    const glm::vec3 half(0.5 * volume.size);
+    const bool inside = glm::all(glm::greaterThan(half, glm::vec3(0.0f))) &&
+                        glm::all(glm::lessThan(half, glm::vec3(kGreatest)));
     const bool blends = std::all_of(volume.blend.begin(), volume.blend.end(), [](double blend) {
         return std::isfinite(static_cast<float>(blend));
     });
-    const bool small = glm::all(glm::lessThan(glm::vec3(half), glm::vec3(kGreatest)));
-    if (!inside || !blends || !small || !finite(worldFromVolume) ||
-        flat(glm::dmat3(worldFromVolume))) {
+    if (!inside || !blends || !finite(worldFromVolume) || flat(glm::dmat3(worldFromVolume))) {
         return std::nullopt;
     }
     const glm::dmat4 volumeFromWorld = glm::inverse(worldFromVolume);
@@ -122,7 +122,7 @@ std::optional<PlacedVolume> place(const ProbeVolume& volume, const glm::mat4& wo
         v.rows[static_cast<std::size_t>(i)] = row(volumeFromWorld, i);
     }
     const bool sphere = volume.shape == VolumeShape::Sphere;
-    v.halfExtents = sphere ? glm::vec3(glm::dvec3(half.x)) : glm::vec3(half);
+    v.halfExtents = sphere ? glm::vec3(half.x) : half;
     v.sphere = sphere;
     v.outward = outward;
     for (int i = 0; i < 3; ++i) {
