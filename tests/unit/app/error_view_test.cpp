@@ -24,8 +24,8 @@ glm::dvec3 oklab(const glm::vec3& encoded) {
             0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
 }
 
-// Steps along the curve are equal; their chords are shorter by the turn's square over 24, .5 % where
-// a sixteenth of the curve turns by 20 degrees, and floats of sRGB keep a step to 1e-5.
+// Steps along the curve are equal; their chords are shorter by the turn's square over 24, .5 %
+// where a sixteenth of the curve turns by 20 degrees, and floats of sRGB keep a step to 1e-5.
 TEST(FalseColor, EqualStepsLookEquallyFarApartAndEverLighter) {
     constexpr int kParts = 16;
     const double whole = glm::distance(oklab(falseColor(0.0)), oklab(falseColor(1.0 / kParts)));
