@@ -23,8 +23,9 @@ float referenceLevel(LodestarTap tap, LodestarCube cube, float footprint) {
 /// A tap reads a sixteenth of the solid angle that it stands for, which blurs the lobe little and still
 /// joins what lies between taps; no finer than the pixel's footprint, as `tent` does, and no coarser
 /// than 32 texels a face, beyond which levels are no tents. A lobe of fewer than 64 texels is drawn by
-/// itself alone: what is drawn by the light are points.
-vec3 referenceSpecular(LodestarCube cube, LodestarSurface surface, float footprint) {
+/// itself alone: what is drawn by the light are points. Where a normal is turned away from the viewer
+/// and no tap meets the lobe, it is read along the reflection, as the CPU's reference does.
+vec3 referenceSpecular(LodestarCube cube, LodestarSurface surface, vec3 reflection, float footprint) {
     float s = lodestar_repairExponent(surface.exponent);
     float nDotV = clamp(dot(surface.normal, surface.view), 0.0, 1.0);
     bool points = 12.0 * nDotV * cube.width * cube.width >= 64.0 * (s + 1.0);
@@ -49,12 +50,13 @@ vec3 referenceSpecular(LodestarCube cube, LodestarSurface surface, float footpri
             }
         }
     }
-    return weight > 0.0 ? sum / weight : vec3(0.0);
+    float sharp = lodestar_raiseLevel(0.0, footprint, cube.maxLevel);
+    return weight > 0.0 ? sum / weight : lodestar_host_cube(cube.slot, reflection, sharp).rgb;
 }
 
 vec3 referenceEnvironment(LodestarCube cube, LodestarSurface surface, vec3 reflection, vec3 reflectionDx,
                           vec3 reflectionDy) {
     float footprint = lodestar_footprintLevel(reflection, reflectionDx, reflectionDy, cube.width);
     return lodestar_reflected(surface, lodestar_host_irradiance(cube.slot, surface.normal),
-                              referenceSpecular(cube, surface, footprint));
+                              referenceSpecular(cube, surface, reflection, footprint));
 }
