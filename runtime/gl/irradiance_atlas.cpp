@@ -8,7 +8,7 @@
 namespace lodestar::gl {
 namespace {
 
-constexpr int kTilesARow = 39; // 1,014 texels
+constexpr int kTilesARow = 40; // 1,000 texels
 constexpr int kFirstRows = 4;
 
 } // namespace

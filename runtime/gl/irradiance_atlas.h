@@ -10,10 +10,10 @@
 
 namespace lodestar::gl {
 
-/// A tile's texels: lodestar_irradianceTexel's square with its border, beneath it rows for other
-/// values of the probe.
-inline constexpr int kTileWidth = 26;
-inline constexpr int kTileHeight = 28;
+/// A tile's texels: lodestar_irradianceTexel's square, beneath it rows for other values of the
+/// probe.
+inline constexpr int kTileWidth = 25;
+inline constexpr int kTileHeight = 27;
 
 class IrradianceAtlas {
 public:

@@ -19,9 +19,9 @@ namespace {
 constexpr int kCubeUnit = 0;
 constexpr int kTableUnit = 1;
 
-constexpr int kParts = 96;       ///< of a level that is summed up
-constexpr int kCoefficients = 9; ///< of irradiance
-constexpr int kFetchRows = 256;  ///< for the round levels of any width
+constexpr int kPartsSide = 4;   ///< parts of a level that is summed up: a square of them
+constexpr int kPartColors = 7;  ///< shaders/host/probe_sh9.frag
+constexpr int kFetchRows = 256; ///< for the round levels of any width
 
 int widthOf(const Texture& cube, int level) {
     return std::max(cube.width() >> level, 1);
@@ -43,22 +43,18 @@ int sourceOf(const Texture& cube, int level) {
     return std::min(levelOfWidth(cube, kSummed), level - 1);
 }
 
-/// One over the sum of a level's weights in shaders/host/probe_sums.frag.
-float normOf(int width) {
-    double sum = 0.0;
-    for (int y = 0; y < width; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const float u = static_cast<float>(2 * x + 1) / static_cast<float>(width) - 1.0f;
-            const float v = static_cast<float>(2 * y + 1) / static_cast<float>(width) - 1.0f;
-            sum += static_cast<double>(
-                shader::lodestar_meanTexelDensity(u, v, static_cast<float>(width)));
-        }
-    }
-    return static_cast<float>(1.0 / (6.0 * sum));
-}
-
 void attach(GLenum target, const Texture& texture) {
     glFramebufferTexture2D(GL_FRAMEBUFFER, target, GL_TEXTURE_2D, texture.id(), 0);
+}
+
+/// So many colours of a framebuffer are drawn.
+void drawColors(GLuint framebuffer, int count) {
+    GLenum colors[kPartColors] = {};
+    for (int i = 0; i < count; ++i) {
+        colors[i] = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glDrawBuffers(count, colors);
 }
 
 } // namespace
@@ -80,7 +76,7 @@ core::Result<void> ProbeFilter::measureHalfStep() {
         return texel.error();
     }
     constexpr float kStep = 1.0f / 1024.0f; // between 1 and 2
-    glBindFramebuffer(GL_FRAMEBUFFER, small_);
+    glBindFramebuffer(GL_FRAMEBUFFER, sums_);
     attach(GL_COLOR_ATTACHMENT0, *texel);
     glViewport(0, 0, 1, 1);
     glDisable(GL_BLEND);
@@ -98,22 +94,25 @@ core::Result<void> ProbeFilter::measureHalfStep() {
     return {};
 }
 
-core::Result<ProbeFilter::Pass> ProbeFilter::makePass(const char* fragment) const {
-    auto made = Program::make(*device_, "host/probe_screen.vert", fragment, {});
+core::Result<ProbeFilter::Pass> ProbeFilter::makePass(const char* fragment,
+                                                      const char* vertex) const {
+    auto made = Program::make(*device_, vertex, fragment, {});
     if (!made) {
         return made.error();
     }
     made->setSampler("uFirstProbe", kCubeUnit);
     made->setSampler("uFetches", kTableUnit);
-    made->setSampler("uMeans", kTableUnit);
-    made->setSampler("uCoefficients", kTableUnit);
+    made->setSampler("uParts", kTableUnit);
     if (const int step = made->uniform("uHalfStep"); step >= 0) {
         made->use();
         glUniform1ui(step, halfStep_);
     }
     Pass pass;
-    pass.widths = made->uniform("uWidths");
-    pass.rows = made->uniform("uRows");
+    for (const char* name : {"uWidths", "uRows", "uCells", "uTile"}) {
+        if (const int uniform = made->uniform(name); uniform >= 0) {
+            pass.uniform = uniform;
+        }
+    }
     pass.program = std::move(*made);
     return pass;
 }
@@ -122,22 +121,21 @@ core::Result<void> ProbeFilter::makePasses() {
     struct Wanted {
         Pass ProbeFilter::*pass;
         const char* fragment;
+        const char* vertex = "host/probe_screen.vert";
     };
     const Wanted wanted[] = {
         {&ProbeFilter::tent_, "host/probe_tent.frag"},
         {&ProbeFilter::round_, "host/probe_round.frag"},
         {&ProbeFilter::sh9_, "host/probe_sh9.frag"},
-        {&ProbeFilter::sh9Sum_, "host/probe_sh9_sum.frag"},
-        {&ProbeFilter::irradiance_, "host/probe_irradiance.frag"},
+        {&ProbeFilter::irradiance_, "host/probe_irradiance.frag", "host/probe_irradiance.vert"},
     };
     for (const Wanted& one : wanted) {
-        auto pass = makePass(one.fragment);
+        auto pass = makePass(one.fragment, one.vertex);
         if (!pass) {
             return pass.error();
         }
         this->*one.pass = std::move(*pass);
     }
-    tileUniform_ = irradiance_.program.uniform("uTile");
     return {};
 }
 
@@ -146,33 +144,33 @@ core::Result<ProbeFilter> ProbeFilter::make(Device& device) {
     filter.device_ = &device;
     filter.fullScreen_ = VertexArray(device);
     glGenFramebuffers(1, &filter.faces_);
-    glGenFramebuffers(1, &filter.small_);
-    glBindFramebuffer(GL_FRAMEBUFFER, filter.faces_);
-    constexpr GLenum kFaces[] = {GL_COLOR_ATTACHMENT0,     GL_COLOR_ATTACHMENT0 + 1,
-                                 GL_COLOR_ATTACHMENT0 + 2, GL_COLOR_ATTACHMENT0 + 3,
-                                 GL_COLOR_ATTACHMENT0 + 4, GL_COLOR_ATTACHMENT0 + 5};
-    glDrawBuffers(6, kFaces);
+    glGenFramebuffers(1, &filter.sums_);
+    glGenSamplers(1, &filter.oneLevel_);
+    glSamplerParameteri(filter.oneLevel_, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glSamplerParameteri(filter.oneLevel_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     if (auto measured = filter.measureHalfStep(); !measured) {
         return measured.error();
     }
     if (auto made = filter.makePasses(); !made) {
         return made.error();
     }
-    struct Small {
-        Texture ProbeFilter::*texture;
-        int width, height;
-    };
-    const Small smalls[] = {
-        {&ProbeFilter::fetches_, lighting::kWidestRound * lighting::kWidestRound, kFetchRows},
-        {&ProbeFilter::parts_, kParts, kCoefficients},
-        {&ProbeFilter::coefficients_, kCoefficients, 1}};
-    for (const Small& small : smalls) {
-        auto texture = Texture::makeTarget(device, small.width, small.height, ArrayFormat::Rgba32F,
-                                           false, "sums of a light probe");
-        if (!texture) {
-            return texture.error();
+    auto fetches =
+        Texture::makeTarget(device, lighting::kWidestRound * lighting::kWidestRound, kFetchRows,
+                            ArrayFormat::Rgba32F, false, "fetches of round levels");
+    auto parts = Texture::makeArray(device, kPartsSide, kPartsSide, kPartColors,
+                                    ArrayFormat::Rgba32F, "sums of a light probe");
+    for (auto* made : {&fetches, &parts}) {
+        if (!*made) {
+            return made->error();
         }
-        filter.*small.texture = std::move(*texture);
+    }
+    filter.fetches_ = std::move(*fetches);
+    filter.parts_ = std::move(*parts);
+    drawColors(filter.faces_, 6);
+    drawColors(filter.sums_, kPartColors);
+    for (int k = 0; k < kPartColors; ++k) {
+        glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(k),
+                                  filter.parts_.id(), 0, k);
     }
     return filter;
 }
@@ -184,16 +182,15 @@ ProbeFilter::ProbeFilter(ProbeFilter&& other) noexcept {
 ProbeFilter& ProbeFilter::operator=(ProbeFilter&& other) noexcept {
     std::swap(device_, other.device_);
     for (Pass ProbeFilter::*pass : {&ProbeFilter::tent_, &ProbeFilter::round_, &ProbeFilter::sh9_,
-                                    &ProbeFilter::sh9Sum_, &ProbeFilter::irradiance_}) {
+                                    &ProbeFilter::irradiance_}) {
         std::swap(this->*pass, other.*pass);
     }
-    std::swap(tileUniform_, other.tileUniform_);
     std::swap(halfStep_, other.halfStep_);
     std::swap(fullScreen_, other.fullScreen_);
     std::swap(faces_, other.faces_);
-    std::swap(small_, other.small_);
-    for (Texture ProbeFilter::*texture :
-         {&ProbeFilter::parts_, &ProbeFilter::coefficients_, &ProbeFilter::fetches_}) {
+    std::swap(sums_, other.sums_);
+    std::swap(oneLevel_, other.oneLevel_);
+    for (Texture ProbeFilter::*texture : {&ProbeFilter::parts_, &ProbeFilter::fetches_}) {
         std::swap(this->*texture, other.*texture);
     }
     std::swap(fetchesWidth_, other.fetchesWidth_);
@@ -203,8 +200,9 @@ ProbeFilter& ProbeFilter::operator=(ProbeFilter&& other) noexcept {
 
 ProbeFilter::~ProbeFilter() {
     if (device_ != nullptr) {
-        const GLuint framebuffers[] = {faces_, small_};
+        const GLuint framebuffers[] = {faces_, sums_};
         glDeleteFramebuffers(2, framebuffers);
+        glDeleteSamplers(1, &oneLevel_);
     }
 }
 
@@ -225,7 +223,7 @@ void ProbeFilter::tent(const Texture& cube, int level) {
     cube.showLevels(level - 1, level - 1);
     beginLevel(cube, level);
     tent_.program.use();
-    glUniform2f(tent_.widths, static_cast<float>(widthOf(cube, level)),
+    glUniform2f(tent_.uniform, static_cast<float>(widthOf(cube, level)),
                 static_cast<float>(widthOf(cube, level - 1)));
     drawFullScreen(*device_);
 }
@@ -260,7 +258,7 @@ void ProbeFilter::round(const Texture& cube, const RoundLevel& level) {
     cube.showLevels(level.source, level.source);
     beginLevel(cube, level.level);
     round_.program.use();
-    glUniform3i(round_.rows, widthOf(cube, level.level), level.firstRow, level.endRow);
+    glUniform3i(round_.uniform, widthOf(cube, level.level), level.firstRow, level.endRow);
     drawFullScreen(*device_);
 }
 
@@ -270,7 +268,13 @@ void ProbeFilter::begin(const Texture& cube) {
     glDisable(GL_BLEND);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     cube.bind(kCubeUnit);
+    glBindSampler(kCubeUnit, oneLevel_);
     fullScreen_.bind();
+}
+
+void ProbeFilter::end(const Texture& cube) {
+    cube.showLevels(0, cube.levelCount() - 1);
+    glBindSampler(kCubeUnit, 0);
 }
 
 /// Tents as far as round levels read them. @return the coarsest
@@ -293,7 +297,6 @@ void ProbeFilter::makeRound(const Texture& cube, int lastLevel) {
             round(cube, level);
         }
     }
-    cube.showLevels(0, cube.levelCount() - 1);
 }
 
 void ProbeFilter::fillMips(const Texture& cube, int lastLevel) {
@@ -301,6 +304,7 @@ void ProbeFilter::fillMips(const Texture& cube, int lastLevel) {
     begin(cube);
     makeTents(cube, lastLevel);
     makeRound(cube, lastLevel);
+    end(cube);
 }
 
 void ProbeFilter::fill(const Texture& cube, int lastLevel, IrradianceAtlas& atlas, int tile) {
@@ -309,29 +313,25 @@ void ProbeFilter::fill(const Texture& cube, int lastLevel, IrradianceAtlas& atla
     const int tents = makeTents(cube, lastLevel);
     fillIrradiance(cube, tents, atlas, tile);
     makeRound(cube, lastLevel);
+    end(cube);
 }
 
 void ProbeFilter::fillIrradiance(const Texture& cube, int level, IrradianceAtlas& atlas, int tile) {
     cube.showLevels(level, level);
-    glBindFramebuffer(GL_FRAMEBUFFER, small_);
-    attach(GL_COLOR_ATTACHMENT0, parts_);
-    glViewport(0, 0, kParts, kCoefficients);
+    glBindFramebuffer(GL_FRAMEBUFFER, sums_);
+    glViewport(0, 0, kPartsSide, kPartsSide);
     ++device_->counters().passes;
     sh9_.program.use();
     const int width = widthOf(cube, level);
-    glUniform2f(sh9_.widths, static_cast<float>(width), normOf(width));
-    drawFullScreen(*device_);
-    attach(GL_COLOR_ATTACHMENT0, coefficients_);
-    glViewport(0, 0, kCoefficients, 1);
-    ++device_->counters().passes;
-    parts_.bind(kTableUnit);
-    sh9Sum_.program.use();
+    const bool even = width % 2 == 0;
+    glUniform2f(sh9_.uniform, static_cast<float>(even ? width / 2 : width),
+                even ? 1.0f / static_cast<float>(width) : 0.0f);
     drawFullScreen(*device_);
     atlas.begin(tile);
-    coefficients_.bind(kTableUnit);
+    parts_.bind(kTableUnit);
     irradiance_.program.use();
     const glm::ivec2 first = atlas.tile(tile);
-    glUniform2i(tileUniform_, first.x, first.y);
+    glUniform2i(irradiance_.uniform, first.x, first.y);
     drawFullScreen(*device_);
 }
 

@@ -24,8 +24,8 @@ public:
     /// Fills levels 1 to a last one, as lighting::tentMips makes them but for sampling: for
     /// lodestar_tentLevel. All channels; every value of level 0 is finite. @pre a cube target
     void fillMips(const Texture& cube, int lastLevel);
-    /// The same, and a tile of irradiance over pi by nine coefficients of its tents of 16 texels,
-    /// or of the coarsest that is made.
+    /// The same, and a tile of irradiance over pi by nine coefficients of the coarsest of its
+    /// tents that is made: of 17 to 32 texels if levels are made so far.
     void fill(const Texture& cube, int lastLevel, IrradianceAtlas& atlas, int tile);
     /// The value of the uniform uHalfStep of shaders/host/probe_half.glsl on this driver.
     [[nodiscard]] unsigned halfStep() const { return halfStep_; }
@@ -34,8 +34,7 @@ private:
     ProbeFilter() = default;
     struct Pass {
         Program program;
-        int widths = -1; ///< uniforms
-        int rows = -1;
+        int uniform = -1; ///< what a draw gives it
     };
     /// A round level, the level that it is read from, and its rows of fetches_.
     struct RoundLevel {
@@ -45,10 +44,11 @@ private:
         int endRow = 0;
     };
     [[nodiscard]] core::Result<void> measureHalfStep();
-    [[nodiscard]] core::Result<Pass> makePass(const char* fragment) const;
+    [[nodiscard]] core::Result<Pass> makePass(const char* fragment, const char* vertex) const;
     [[nodiscard]] core::Result<void> makePasses();
     void beginLevel(const Texture& cube, int level);
     void begin(const Texture& cube);
+    void end(const Texture& cube);
     void prepareRound(const Texture& cube);
     int makeTents(const Texture& cube, int lastLevel);
     void makeRound(const Texture& cube, int lastLevel);
@@ -57,13 +57,13 @@ private:
     void fillIrradiance(const Texture& cube, int level, IrradianceAtlas& atlas, int tile);
 
     Device* device_ = nullptr;
-    Pass tent_, round_, sh9_, sh9Sum_, irradiance_;
-    int tileUniform_ = -1;
+    Pass tent_, round_, sh9_, irradiance_;
     unsigned halfStep_ = 0;
     VertexArray fullScreen_;
-    unsigned faces_ = 0; ///< framebuffer of a level's six faces
-    unsigned small_ = 0; ///< of the small textures
-    Texture parts_, coefficients_;
+    unsigned faces_ = 0;                  ///< framebuffer of a level's six faces
+    unsigned oneLevel_ = 0;               ///< sampler; a driver mixes no levels where one is read
+    unsigned sums_ = 0;                   ///< framebuffer of parts_
+    Texture parts_;                       ///< of nine coefficients
     Texture fetches_;                     ///< of the round levels of cubes of a width
     int fetchesWidth_ = 0;                ///< that width
     std::vector<RoundLevel> roundLevels_; ///< finest first

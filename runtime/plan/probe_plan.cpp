@@ -63,14 +63,20 @@ std::vector<Receivers> receiversOf(const PlanInput& input,
     return receivers;
 }
 
+int widthOf(const ProbeView& probe, int level) {
+    return std::max(probe.capture.resolution >> level, 1);
+}
+
 /// The deepest level that a probe's receivers read: of the bluntest lookup where texels are the
-/// smallest, and the level of 8 texels that irradiance is made of.
+/// smallest, and the coarsest of more than 16 texels, of which irradiance is made.
 int lastLevel(const ProbeView& probe, const Receivers& receivers) {
     const double width = static_cast<double>(std::max(probe.capture.resolution, 1));
     const int last = static_cast<int>(std::floor(std::log2(width)));
     int level = 0;
     if (receivers.diffuse) {
-        level = std::clamp(static_cast<int>(std::ceil(std::log2(width / 8.0))), 0, last);
+        while (widthOf(probe, level + 1) > 16) {
+            ++level;
+        }
     }
     if (receivers.glossy) {
         const auto exponent = static_cast<float>(std::min(receivers.bluntest, 1e7));
@@ -84,10 +90,6 @@ int lastLevel(const ProbeView& probe, const Receivers& receivers) {
 std::uint64_t faceTexels(const ProbeView& probe) {
     const auto width = static_cast<std::uint64_t>(probe.capture.resolution);
     return width * width;
-}
-
-int widthOf(const ProbeView& probe, int level) {
-    return std::max(probe.capture.resolution >> level, 1);
 }
 
 /// What gl/probe_filter.h does for levels 1 to a last one: a pass each.
@@ -288,7 +290,7 @@ private:
                                        probe.subject,
                                        Decision::Run,
                                        "visible diffuse surfaces are lit by it",
-                                       {3, 3, 26 * 26, 0}});
+                                       {2, 2, 25 * 25, 0}});
         }
     }
 

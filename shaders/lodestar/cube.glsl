@@ -211,19 +211,10 @@ LODESTAR_FN vec2 lodestar_octahedral(vec3 d) {
     return vec2(x, z);
 }
 
-/// The direction, not unit, of a point of that square; a point a little beyond its sides is where one
-/// comes out that walks over the side.
+/// The direction, not unit, of a point of that square.
 LODESTAR_FN vec3 lodestar_octahedralDirection(vec2 p) {
     Real x = p.x;
     Real z = p.y;
-    if (abs(x) > 1.0f) {
-        x = (x < 0.0f ? -2.0f : 2.0f) - x;
-        z = -z;
-    }
-    if (abs(z) > 1.0f) {
-        z = (z < 0.0f ? -2.0f : 2.0f) - z;
-        x = -x;
-    }
     Real y = 1.0f - abs(x) - abs(z);
     if (y < 0.0f) {
         Real folded = (1.0f - abs(z)) * (x < 0.0f ? -1.0f : 1.0f);
@@ -233,13 +224,19 @@ LODESTAR_FN vec3 lodestar_octahedralDirection(vec2 p) {
     return vec3(x, y, z);
 }
 
-/// Texels of a side of a tile that holds a light probe's irradiance, without the border of one.
-LODESTAR_CONST Real LODESTAR_TILE_TEXELS = LODESTAR_LITERAL(24.0);
+/// Texels of a side of a tile that holds a light probe's irradiance; odd, so that the octahedron's
+/// folds along the square's middles lie on texel centres, as its sides do: a bilinear fetch across
+/// them misses nothing.
+LODESTAR_CONST Real LODESTAR_TILE_TEXELS = LODESTAR_LITERAL(25.0);
 
-/// Where a normal lies in such a tile, in texels from the border's corner.
+/// Where a normal lies in such a tile, in texels from its corner: between texel centres of the tile,
+/// and so far within them (1/400 of a texel) that rounding does not read the next tile's.
 LODESTAR_FN vec2 lodestar_irradianceTexel(vec3 normal) {
     vec2 p = lodestar_octahedral(normal);
-    return vec2((p.x * 0.5f + 0.5f) * LODESTAR_TILE_TEXELS + 1.0f, (p.y * 0.5f + 0.5f) * LODESTAR_TILE_TEXELS + 1.0f);
+    Real reach = LODESTAR_LITERAL(0.9998);
+    Real pitches = LODESTAR_TILE_TEXELS - 1.0f;
+    return vec2((clamp(p.x, -reach, reach) * 0.5f + 0.5f) * pitches + 0.5f,
+                (clamp(p.y, -reach, reach) * 0.5f + 0.5f) * pitches + 0.5f);
 }
 
 LODESTAR_END

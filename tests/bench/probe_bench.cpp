@@ -2,15 +2,18 @@
 //
 // What it takes to make a captured cube ready to shade with, both terms, in passes: our tent mips
 // and irradiance, the driver's own mipmap call, and a GGX prefilter of 32 samples a texel as other
-// engines run it for each level; and, for a sky of which only the intensity or tint has changed,
-// every level anew as geometry + tint x sky of two chains that were kept. Wall time between two
-// glFinish, all in turn; ratios are formed repeat by repeat.
+// engines run it for each level and face; and, for a sky of which only the intensity or tint has
+// changed, every level anew as geometry + tint x sky of two chains that were kept. Between two
+// glFinish, all in turn: wall time, and the CPU time of all threads of the process, which other
+// work on the machine disturbs less and in which a driver that draws by itself does its drawing.
+// Ratios are formed repeat by repeat.
 //
-//   build/bench-probes [repeats]
+//   build/bench-probes [repeats]        LP_NUM_THREADS=0: llvmpipe draws on the calling thread
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <functional>
 #include <string>
 #include <vector>
@@ -26,71 +29,81 @@ namespace {
 using namespace lodestar;
 using Clock = std::chrono::steady_clock;
 
-const char* kVertex = R"(#version 330 core
-out vec2 vAt;
+const char* kVertex = R"(#version 450 core
 void main() {
-    vec2 p = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2) * 2.0 - 1.0;
-    vAt = p;
-    gl_Position = vec4(p, 0.0, 1.0);
+    vec2 p = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2);
+    gl_Position = vec4(p * 2.0 - 1.0, 0.0, 1.0);
 })";
 
-/// Importance sampling of GGX half vectors about n = v, each read at the level of its own solid
-/// angle.
-const char* kGgx = R"(#version 330 core
-uniform samplerCube uMap;
-uniform int uFace;
-uniform float uAlpha, uWidth;
-in vec2 vAt;
-layout(location = 0) out vec4 oColor;
+/// Importance sampling of GGX half vectors about n = v, each tap read a level above that of its own
+/// solid angle, as engines do it.
+const char* kGgx = R"(#version 450 core
+layout(location = 0) out vec4 o;
+layout(binding = 0) uniform samplerCube uMap;
+layout(location = 0) uniform int face;
+layout(location = 1) uniform float inv;
+layout(location = 2) uniform float a;
+layout(location = 3) uniform int n;
+layout(location = 4) uniform float width;
 
-vec3 directionOf(int face, vec2 p) {
-    if (face == 0) return vec3(1.0, -p.y, -p.x);
-    if (face == 1) return vec3(-1.0, -p.y, p.x);
-    if (face == 2) return vec3(p.x, 1.0, p.y);
-    if (face == 3) return vec3(p.x, -1.0, -p.y);
-    if (face == 4) return vec3(p.x, -p.y, 1.0);
-    return vec3(-p.x, -p.y, -1.0);
-}
-
-float reversed(uint i) {
-    i = (i << 16u) | (i >> 16u);
-    i = ((i & 0x55555555u) << 1u) | ((i & 0xAAAAAAAAu) >> 1u);
-    i = ((i & 0x33333333u) << 2u) | ((i & 0xCCCCCCCCu) >> 2u);
-    i = ((i & 0x0F0F0F0Fu) << 4u) | ((i & 0xF0F0F0F0u) >> 4u);
-    i = ((i & 0x00FF00FFu) << 8u) | ((i & 0xFF00FF00u) >> 8u);
-    return float(i) * 2.3283064365386963e-10;
-}
+float radical(uint b) { return float(bitfieldReverse(b)) * 2.3283064365386963e-10; }
 
 void main() {
-    vec3 n = normalize(directionOf(uFace, vAt));
-    vec3 up = abs(n.z) < 0.999 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0);
-    vec3 t = normalize(cross(up, n));
-    vec3 b = cross(n, t);
-    vec3 sum = vec3(0.0);
-    float weights = 0.0;
-    for (int i = 0; i < 32; ++i) {
-        float x = (float(i) + 0.5) / 32.0;
-        float a2 = uAlpha * uAlpha;
-        float c2 = (1.0 - x) / (1.0 + (a2 - 1.0) * x);
-        float c = sqrt(c2);
-        float s = sqrt(1.0 - c2);
-        float phi = 6.28318530718 * reversed(uint(i));
-        vec3 h = s * cos(phi) * t + s * sin(phi) * b + c * n;
-        vec3 l = 2.0 * dot(n, h) * h - n;
-        float cosine = dot(n, l);
-        if (cosine > 0.0) {
-            float d = c2 * (a2 - 1.0) + 1.0;
-            float density = a2 / (3.14159265359 * d * d) * 0.25;
-            float solid = 1.0 / (32.0 * density + 1e-4);
-            float texel = 12.5663706 / (6.0 * uWidth * uWidth);
-            sum += cosine * textureLod(uMap, l, max(0.5 * log2(solid / texel), 0.0)).rgb;
-            weights += cosine;
-        }
+    vec2 p = gl_FragCoord.xy * inv * 2.0 - 1.0;
+    vec3 d[6] = vec3[](vec3(1, -p.y, -p.x), vec3(-1, -p.y, p.x), vec3(p.x, 1, p.y),
+                       vec3(p.x, -1, -p.y), vec3(p.x, -p.y, 1), vec3(-p.x, -p.y, -1));
+    vec3 R = normalize(d[face]);
+    vec3 T = normalize(abs(R.z) < 0.9 ? cross(R, vec3(0, 0, 1)) : cross(R, vec3(1, 0, 0)));
+    vec3 B = cross(R, T);
+    vec3 acc = vec3(0);
+    float ws = 0.0;
+    float lb = 0.5 * log2(6.0 * width * width / float(n) / 12.566371);
+    for (uint i = 0u; i < uint(n); ++i) {
+        float u1 = (float(i) + 0.5) / float(n), ph = 6.2831853 * radical(i);
+        float ch = sqrt((1.0 - u1) / (1.0 + (a * a - 1.0) * u1)), sh = sqrt(1.0 - ch * ch);
+        float ct = 2.0 * ch * ch - 1.0, st = 2.0 * ch * sh;
+        if (ct <= 0.0) continue;
+        float q = ch * ch * (a * a - 1.0) + 1.0;
+        float pdf = a * a / (3.14159265 * q * q) * 0.25;
+        vec3 l = R * ct + (T * cos(ph) + B * sin(ph)) * st;
+        acc += ct * textureLod(uMap, l, max(lb - 0.5 * log2(pdf) + 1.0, 0.0)).rgb;
+        ws += ct;
     }
-    oColor = vec4(sum / max(weights, 1e-6), 1.0);
+    o = vec4(acc / ws, 1.0);
 })";
+
+/// What a piece of work takes, ms.
+struct Times {
+    double wall = 0.0;
+    double cpu = 0.0; ///< of all threads of the process
+};
+
+double cpuMilliseconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
+/// Of the second of two runs: a probe is filtered when its faces have just been written, so that
+/// they and the programs are at hand.
+Times timesOf(const std::function<void()>& work) {
+    work();
+    glFinish();
+    const double cpu = cpuMilliseconds();
+    const auto start = Clock::now();
+    work();
+    glFinish();
+    const double wall = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    return {wall, cpuMilliseconds() - cpu};
+}
 
 /// A level of two kept chains: what was captured, and the sky between it.
+const char* kTintedVertex = R"(#version 330 core
+out vec2 vAt;
+void main() {
+    vAt = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2) * 2.0 - 1.0;
+    gl_Position = vec4(vAt, 0.0, 1.0);
+})";
 const char* kTinted = R"(#version 330 core
 in vec2 vAt;
 uniform samplerCube uMap;
@@ -112,14 +125,6 @@ void main() {
     oColor = vec4(textureLod(uMap, d, 0.0).rgb + uTint * textureLod(uSky, d, 0.0).rgb, 1.0);
 })";
 
-double milliseconds(const std::function<void()>& work) {
-    glFinish();
-    const auto start = Clock::now();
-    work();
-    glFinish();
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
 double median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
@@ -134,10 +139,8 @@ public:
           program_(std::move(*gl::Program::makeFromText(device, kVertex, kGgx, "ggx"))) {
         glGenFramebuffers(1, &framebuffer_);
         program_.use();
-        program_.setSampler("uMap", 0);
-        face_ = program_.uniform("uFace");
-        alpha_ = program_.uniform("uAlpha");
-        glUniform1f(program_.uniform("uWidth"), static_cast<float>(from.width()));
+        glUniform1i(kSamples, 32);
+        glUniform1f(kWidth, static_cast<float>(from.width()));
     }
     ~Ggx() { glDeleteFramebuffers(1, &framebuffer_); }
     void run() {
@@ -149,26 +152,27 @@ public:
             const int side = std::max(to_.width() >> level, 1);
             const float roughness =
                 static_cast<float>(level) / static_cast<float>(to_.levelCount() - 1);
-            glUniform1f(alpha_, roughness * roughness);
+            glUniform1f(kInverse, 1.0f / static_cast<float>(side));
+            glUniform1f(kAlpha, std::max(roughness * roughness, 0.002f));
             glViewport(0, 0, side, side);
             for (int face = 0; face < 6; ++face) {
                 glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0,
                                        GL_TEXTURE_CUBE_MAP_POSITIVE_X + static_cast<GLenum>(face),
                                        to_.id(), level);
-                glUniform1i(face_, face);
+                glUniform1i(kFace, face);
                 gl::drawFullScreen(device_);
             }
         }
     }
 
 private:
+    enum Uniform { kFace, kInverse, kAlpha, kSamples, kWidth };
     gl::Device& device_;
     const gl::Texture& from_;
     const gl::Texture& to_;
     gl::VertexArray screen_;
     gl::Program program_;
     unsigned framebuffer_ = 0;
-    int face_ = -1, alpha_ = -1;
 };
 
 /// All levels of a map from two others.
@@ -176,7 +180,8 @@ class Tinted {
 public:
     explicit Tinted(gl::Device& device)
         : device_(device), screen_(device),
-          program_(std::move(*gl::Program::makeFromText(device, kVertex, kTinted, "tinted"))) {
+          program_(
+              std::move(*gl::Program::makeFromText(device, kTintedVertex, kTinted, "tinted"))) {
         glGenFramebuffers(1, &framebuffer_);
         program_.use();
         program_.setSampler("uMap", 0);
@@ -244,29 +249,41 @@ void measure(gl::Device& device, gl::ProbeFilter& filter, gl::IrradianceAtlas& a
     Tinted tinted(device);
     const int tile = *atlas.add();
     glDisable(GL_DEPTH_TEST);
-    std::vector<double> refresh, mips, mipmap, prefilter, ratio, ofMipmap, tint;
+    struct Column {
+        const char* name;
+        std::function<void()> work;
+        std::vector<double> wall{}, cpu{};         ///< ms
+        std::vector<double> wallOver{}, cpuOver{}; ///< over the refresh's
+    };
+    Column columns[] = {
+        {"refresh", [&] { filter.fill(ours, levels - 1, atlas, tile); }},
+        {"mips alone", [&] { filter.fillMips(ours, levels - 1); }},
+        {"mipmap call",
+         [&] {
+             drivers.bind(0);
+             glGenerateMipmap(GL_TEXTURE_CUBE_MAP);
+         }},
+        {"GGX, 32 samples", [&] { ggx.run(); }},
+        {"tinted sum", [&] { tinted.run(ours, drivers, theirs); }},
+    };
     for (int i = -1; i < repeats; ++i) { // the first reading holds what the driver put off
-        const double m = milliseconds([&] { filter.fillMips(ours, levels - 1); });
-        const double both = milliseconds([&] { filter.fill(ours, levels - 1, atlas, tile); });
-        const double g = milliseconds([&] {
-            drivers.bind(0);
-            glGenerateMipmap(GL_TEXTURE_CUBE_MAP);
-        });
-        const double p = milliseconds([&] { ggx.run(); });
-        const double t = milliseconds([&] { tinted.run(ours, drivers, theirs); });
-        if (i >= 0) {
-            tint.push_back(t);
-            mips.push_back(m);
-            refresh.push_back(both);
-            mipmap.push_back(g);
-            prefilter.push_back(p);
-            ratio.push_back(p / both);
-            ofMipmap.push_back(both / g);
+        Times refresh;
+        for (Column& column : columns) {
+            const Times times = timesOf(column.work);
+            refresh = &column == columns ? times : refresh;
+            if (i >= 0) {
+                column.wall.push_back(times.wall);
+                column.cpu.push_back(times.cpu);
+                column.wallOver.push_back(times.wall / refresh.wall);
+                column.cpuOver.push_back(times.cpu / refresh.cpu);
+            }
         }
     }
-    std::printf("%4d   %7.3f (mips %7.3f)  %7.3f  %8.3f   %6.2f   %5.2f   %7.3f\n", width,
-                median(refresh), median(mips), median(mipmap), median(prefilter), median(ratio),
-                median(ofMipmap), median(tint));
+    for (const Column& column : columns) {
+        std::printf("%4d  %-16s %8.3f %8.3f   %6.2f %6.2f\n", width, column.name,
+                    median(column.wall), median(column.cpu), median(column.wallOver),
+                    median(column.cpuOver));
+    }
 }
 
 } // namespace
@@ -286,9 +303,10 @@ int main(int argc, char** argv) {
         return 4;
     }
     glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
-    std::printf("%s; medians of %d, ms\n", (*device)->capabilities().renderer.c_str(), repeats);
-    std::printf(
-        "face   refresh                 mipmap   ggx 32   ggx/refresh  refresh/mipmap  tinted\n");
+    const char* threads = std::getenv("LP_NUM_THREADS");
+    std::printf("%s, LP_NUM_THREADS %s; medians of %d\n",
+                (*device)->capabilities().renderer.c_str(), threads ? threads : "not set", repeats);
+    std::printf("face                    wall ms   cpu ms   over the refresh: wall, cpu\n");
     for (const int width : {64, 128, 256}) {
         measure(**device, *filter, *atlas, width, repeats);
     }

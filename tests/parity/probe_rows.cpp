@@ -92,7 +92,7 @@ std::vector<GlslCase> octahedralCases() {
     Draw draw(73);
     for (int i = 0; i < kDrawn; ++i) {
         const glm::vec3 d = draw.unit(0.01f); // at a fold either side is right
-        cases.push_back({glm::vec4(d, 0.0f), glm::vec4(draw.uniform(0.01f, 1.06f),
+        cases.push_back({glm::vec4(d, 0.0f), glm::vec4(draw.uniform(0.01f, 0.98f),
                                                        -draw.uniform(0.01f, 0.98f), 0.0f, 0.0f)});
     }
     return cases;

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <epoxy/gl.h>
 
@@ -13,6 +14,23 @@
 #include "support/gl_fixture.h"
 
 namespace lodestar::testing {
+
+/// A tile of irradiance, read as a shader reads it.
+struct Tile {
+    std::vector<glm::vec4> texels; ///< gl::kTileWidth a row
+
+    [[nodiscard]] glm::vec3 read(const glm::vec3& normal) const {
+        const glm::vec2 at = shader::lodestar_irradianceTexel(normal) - 0.5f;
+        const glm::ivec2 low(at);
+        const glm::vec2 t = at - glm::vec2(low);
+        const auto texel = [&](int x, int y) {
+            return glm::vec3(
+                texels[static_cast<std::size_t>((low.y + y) * gl::kTileWidth + low.x + x)]);
+        };
+        return glm::mix(glm::mix(texel(0, 0), texel(1, 0), t.x),
+                        glm::mix(texel(0, 1), texel(1, 1), t.x), t.y);
+    }
+};
 
 class ProbeChainTest : public GlTest {
 protected:
@@ -61,6 +79,26 @@ protected:
         const gl::Texture cube = targetOf(base);
         filter_->fillMips(cube, cube.levelCount() - 1);
         return read(cube, cube.levelCount());
+    }
+    /// The tile of a probe that holds a level 0.
+    Tile irradianceOf(const lighting::Cubemap& base) {
+        const gl::Texture cube = targetOf(base);
+        const int number = *atlas_.add();
+        filter_->fill(cube, cube.levelCount() - 1, atlas_, number);
+        return read(number);
+    }
+    Tile read(int number) {
+        const gl::Texture& texture = atlas_.texture();
+        std::vector<glm::vec4> all(static_cast<std::size_t>(texture.width() * texture.height()));
+        texture.bind(0);
+        glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, all.data());
+        const glm::ivec2 first = atlas_.tile(number);
+        Tile tile;
+        for (int y = 0; y < gl::kTileWidth; ++y) {
+            const auto row = all.begin() + (first.y + y) * texture.width() + first.x;
+            tile.texels.insert(tile.texels.end(), row, row + gl::kTileWidth);
+        }
+        return tile;
     }
 
     std::optional<gl::ProbeFilter> filter_;
