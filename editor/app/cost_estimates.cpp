@@ -91,19 +91,12 @@ ReadyLookup readyMap(const CostedLookup& lookup, const lighting::Cubemap& base) 
 std::vector<CostedLookup> costedLookups() {
     std::vector<CostedLookup> lookups;
     for (const Term term : {Term::Glossy, Term::Diffuse}) {
-        for (const std::string& name : lighting::estimatorNames(term)) {
-            // Without a pixel's footprint `mip-floor` is `mip`; the reference is the truth itself.
-            if (name == "taps:N") {
-                for (const int taps : {4, 16, 64}) {
-                    const lighting::Estimator spiral{lighting::EstimatorKind::Taps, 0.0f, taps};
-                    lookups.push_back({lighting::estimatorName(spiral), term, spiral, nullptr});
-                }
-                continue;
-            }
-            if (name.find("LAMBDA") != std::string::npos || name == "mip-floor" ||
-                name == "reference") {
-                continue;
-            }
+        // Without a pixel's footprint `mip-floor` is `mip`; the level of `bias` is chosen by hand.
+        const std::vector<const char*> names =
+            term == Term::Glossy ? std::vector<const char*>{"mip",    "tent",    "ring:3", "ring:7",
+                                                            "taps:4", "taps:16", "taps:64"}
+                                 : std::vector<const char*>{"lowest-mip", "sh9", "irradiance"};
+        for (const char* name : names) {
             lookups.push_back({name, term, *lighting::parseEstimator(name, term), nullptr});
         }
         for (const char* name : {"rsrm", "rsrm-published", "rsrm-published-columns"}) {

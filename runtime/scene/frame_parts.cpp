@@ -74,4 +74,10 @@ std::uint64_t resolve(const core::Image& samples, int perSide, const glm::ivec2&
     return repaired;
 }
 
+bool publishes(const plan::EffectPlan& plan, std::size_t probe) {
+    return std::any_of(
+        plan.probeWork.begin(), plan.probeWork.end(),
+        [&](const plan::ProbeWork& work) { return work.probe == probe && work.publish; });
+}
+
 } // namespace lodestar::scene

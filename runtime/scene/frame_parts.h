@@ -12,6 +12,7 @@
 
 #include "core/image.h"
 #include "host/blocks.glsl"
+#include "plan/effect_plan.h"
 #include "scene/scene.h"
 
 namespace lodestar::scene {
@@ -27,5 +28,8 @@ void setPunctualLights(const Scene& scene, blocks::LodestarFrame& block);
 /// @return how many those are
 [[nodiscard]] std::uint64_t resolve(const core::Image& samples, int perSide, const glm::ivec2& at,
                                     core::Image& out);
+
+/// Whether a plan has the faces drawn of a probe take the place of the captured ones.
+[[nodiscard]] bool publishes(const plan::EffectPlan& plan, std::size_t probe);
 
 } // namespace lodestar::scene

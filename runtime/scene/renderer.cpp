@@ -160,12 +160,6 @@ blocks::LodestarFrame Renderer::State::frameBlockFor(const RenderSettings& setti
     return block;
 }
 
-bool publishes(const plan::EffectPlan& plan, std::size_t probe) {
-    return std::any_of(
-        plan.probeWork.begin(), plan.probeWork.end(),
-        [&](const plan::ProbeWork& work) { return work.probe == probe && work.publish; });
-}
-
 /// The faces that the plan draws, and what it makes of them.
 core::Result<void> Renderer::State::drawProbes(const plan::EffectPlan& plan,
                                                const RenderSettings& settings,

@@ -268,6 +268,9 @@ TEST(Furnace, EveryEstimatorLobeAndExponent) {
             if (name == "taps:N") {
                 name = "taps:16";
             }
+            if (name == "auto:ERROR") {
+                continue; // it stands for others
+            }
             const auto estimator = lighting::parseEstimator(name, term);
             ASSERT_TRUE(estimator) << name;
             EXPECT_EQ(lighting::estimatorName(*estimator), name);

@@ -165,7 +165,7 @@ TEST(ProbePlan, LevelsAreThoseThatExponentsSample) {
     world.input.draws[0].bluntest = 1e6; // a mirror: level 0 alone
     EXPECT_EQ(world.frame().probeWork[0].lastLevel, 0);
     World dull = lobby();
-    dull.input.draws[0].glossy = false; // the level of 8 texels, of which irradiance is made
+    dull.input.draws[0].glossy = false;
     EXPECT_EQ(dull.frame().probeWork[0].lastLevel, 2) << "32 texels, of which irradiance is made";
     World both = lobby();
     both.input.draws[0].bluntest = 0.0;
