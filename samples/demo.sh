@@ -35,7 +35,7 @@ export LIBGL_ALWAYS_SOFTWARE=${LIBGL_ALWAYS_SOFTWARE:-1}
 out=out/demo
 assets=$out/assets
 parts=$out/parts
-total=16
+total=17
 step=0
 started=$SECONDS
 
@@ -210,6 +210,23 @@ sheet lift --title "Light probes" \
     --note "Five probes; the sky is composed behind what they captured, the hall keeps it out" \
     --columns "9:00|17:30|19:00|21:00" $rows
 
+next "dusk in the courtyard, captured long ago and again"
+dusk() {
+    build/lodestar render "$assets/lift.gltf" --size 308x193 --camera courtyard --frames 30 --fps 10 --hour 15.5 --hours-per-second 1 $probes \
+        -o "$parts/$1.exr" --stats "$parts/$1.json" --light-threshold "$2" || stop "dusk could not be rendered"
+}
+dusk dusk-truth 0
+rows=""
+for threshold in 0.1 1000; do # the default, and never
+    dusk "dusk-$threshold" "$threshold"
+    build/lodestar compare "$parts/dusk-$threshold.exr" "$parts/dusk-truth.exr" --error-scale 100 -o "$parts/dusk-$threshold-error.png" >/dev/null ||
+        stop "pictures could not be compared"
+    rows="$rows --row threshold_$threshold $parts/dusk-$threshold.exr $parts/dusk-$threshold-error.png"
+done
+# shellcheck disable=SC2086
+sheet dusk --title "Bounced light stays as captured until it has changed by more than a threshold" \
+    --note "From 15:30 to 18:24; errors against probes captured at every step" --columns "18:24|error" $rows
+
 next "a walk into the hall, two faces of probes a frame"
 # shellcheck disable=SC2086
 build/lodestar render "$assets/lift.gltf" --size 246x154 --camera Walker --animation walk --frames 100 --fps 5 --hour 17.5 --hours-per-second 0.1 \
@@ -219,7 +236,7 @@ sheet walk --title "A walk" --note "From 17:30 to 19:30; the lift moves, and nev
     "$parts/walk-0080.png" "$parts/walk-0099.png"
 
 echo "done in $((SECONDS - started)) s; look at:"
-for picture in figure1 figure2 figure3 ashikhmin seams estimators terrace table day hours golden_hour lift walk; do
+for picture in figure1 figure2 figure3 ashikhmin seams estimators terrace table day hours golden_hour lift dusk walk; do
     echo "    $out/$picture.png"
 done
 

@@ -15,6 +15,7 @@ void addView(CLI::App& app, int& status);
 void addPlan(CLI::App& app, int& status);
 void addSample(CLI::App& app, int& status);
 void addBake(CLI::App& app, int& status);
+void addCompare(CLI::App& app, int& status);
 void addCost(CLI::App& app, int& status);
 void addCheck(CLI::App& app, int& status);
 

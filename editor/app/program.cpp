@@ -24,6 +24,7 @@ int runProgram(int argc, char** argv) {
     addPlan(app, status);
     addSample(app, status);
     addBake(app, status);
+    addCompare(app, status);
     addCost(app, status);
     addCheck(app, status);
     try {
