@@ -61,26 +61,6 @@ core::Result<lighting::RsrmLayout> parseLayout(const BakeOptions& options) {
     return layout;
 }
 
-core::Result<std::vector<double>> parseExponents(const std::string& text) {
-    std::vector<double> exponents;
-    for (std::size_t from = 0; from <= text.size();) {
-        const std::size_t comma = std::min(text.find(',', from), text.size());
-        const auto exponent = parseExponent(text.substr(from, comma - from), "--exponents");
-        if (!exponent) {
-            return exponent.error();
-        }
-        if (*exponent > kMaxExponent) {
-            return usage("a row's exponent lies in [0, 1e7]; a mirror has none", "--exponents");
-        }
-        exponents.push_back(*exponent);
-        from = comma + 1;
-    }
-    if (exponents.size() > kMaxRows) {
-        return usage("a map has at most " + std::to_string(kMaxRows) + " rows", "--exponents");
-    }
-    return exponents;
-}
-
 lighting::RsrmBake filtered(const BakeSource& source, const lighting::RsrmLayout& layout,
                             const std::vector<double>& exponents) {
     const std::vector<double> angles = lighting::columnAngles(layout.columnMap, layout.columns);
@@ -175,9 +155,13 @@ int runBake(const BakeOptions& options) {
     if (!layout) {
         return fail(layout.error());
     }
-    const auto exponents = parseExponents(options.exponents);
+    const auto exponents = parseExponents(options.exponents, "--exponents");
     if (!exponents) {
         return fail(exponents.error());
+    }
+    if (exponents->size() > kMaxRows) {
+        return fail(
+            usage("a map has at most " + std::to_string(kMaxRows) + " rows", "--exponents"));
     }
     layout->rows = static_cast<int>(exponents->size());
     core::Tally warnings;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/command.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -93,6 +94,24 @@ core::Result<double> parseExponent(std::string_view text, const std::string& opt
                      option);
     }
     return *value;
+}
+
+core::Result<std::vector<double>> parseExponents(std::string_view text, const std::string& option) {
+    constexpr double kMost = 1e7;
+    std::vector<double> exponents;
+    for (std::size_t from = 0; from <= text.size();) {
+        const std::size_t comma = std::min(text.find(',', from), text.size());
+        const auto exponent = parseExponent(text.substr(from, comma - from), option);
+        if (!exponent) {
+            return exponent.error();
+        }
+        if (*exponent > kMost) {
+            return usage("an exponent of a list lies in [0, 1e7]; a mirror has none", option);
+        }
+        exponents.push_back(*exponent);
+        from = comma + 1;
+    }
+    return exponents;
 }
 
 } // namespace lodestar::app

@@ -61,25 +61,6 @@ std::vector<glm::dvec3> pictureDirections() {
     return directions;
 }
 
-core::Result<std::vector<double>> parseExponents(const std::string& text) {
-    std::vector<double> exponents;
-    for (std::size_t from = 0; from <= text.size();) {
-        const std::size_t comma = std::min(text.find(',', from), text.size());
-        const auto exponent = parseExponent(text.substr(from, comma - from), "--exponents");
-        if (!exponent) {
-            return exponent.error();
-        }
-        if (*exponent > 1e7) {
-            return usage("an exponent lies in [0, 1e7]", "--exponents");
-        }
-        exponents.push_back(*exponent);
-        from = comma + 1;
-    }
-    std::sort(exponents.begin(), exponents.end());
-    exponents.erase(std::unique(exponents.begin(), exponents.end()), exponents.end());
-    return exponents;
-}
-
 core::Result<Measured> measureTruth(const CostOptions& options, std::size_t index,
                                     const std::vector<double>& exponents) {
     const std::string& source = options.environments[index];
@@ -210,10 +191,12 @@ private:
 };
 
 core::Result<CostTable> measureAll(const CostOptions& options) {
-    const auto exponents = parseExponents(options.exponents);
+    auto exponents = parseExponents(options.exponents, "--exponents");
     if (!exponents) {
         return exponents.error();
     }
+    std::sort(exponents->begin(), exponents->end());
+    exponents->erase(std::unique(exponents->begin(), exponents->end()), exponents->end());
     auto context = platform::HeadlessContext::create();
     if (!context) {
         return context.error();

@@ -53,8 +53,8 @@ std::string costCsv(const CostTable& table) {
                                                   preparation.estimator == row.estimator;
                                        });
         text << field(row.environment) << ',' << row.term << ',' << field(row.estimator) << ','
-             << row.exponent << ',' << row.fetches << ',' << number(row.rmse).dump() << ','
-             << number(row.worst).dump() << ',' << number(row.shadingMs).dump() << ','
+             << number(row.exponent).dump() << ',' << row.fetches << ',' << number(row.rmse).dump()
+             << ',' << number(row.worst).dump() << ',' << number(row.shadingMs).dump() << ','
              << number(made->ms).dump() << ',' << made->bytes << ',' << (row.front ? 1 : 0) << '\n';
     }
     return text.str();

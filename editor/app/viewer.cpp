@@ -277,7 +277,8 @@ void Viewer::note(const scene::Frame& frame, int samplesPerSide) {
                           frame.timesMs, frame.counters});
     }
     plan_ = frame.plan;
-    if (!plan_->probeFaces.empty() || !plan_->probeWork.empty()) {
+    if (!plan_->probeFaces.empty() || !plan_->probeWork.empty() ||
+        document_.renderer->awaitsForecast()) {
         framesWanted_ = std::max(framesWanted_, 1); // more may be due
     }
     if (samplesPerSide == options_.samplesPerSide) {

@@ -3,9 +3,8 @@
 // A document's images: those that something shows, decoded side by side. A missing or damaged one
 // is no reason to refuse a scene: it becomes one white texel, counted with its reason.
 #include <algorithm>
-#include <atomic>
-#include <thread>
 
+#include "core/parallel.h"
 #include "io/gltf_internal.h"
 #include "io/image_file.h"
 
@@ -123,21 +122,13 @@ public:
 
     /// Decodes on as many threads as there are processors, and tells what failed in order.
     void decode() {
-        std::atomic<std::size_t> next{0};
-        const auto work = [&] {
-            for (std::size_t i = next++; i < encoded_.size(); i = next++) {
+        core::inParallel(
+            encoded_.size(),
+            [&](std::size_t i) {
                 encoded_[i].texels = decodeTexels(encoded_[i].bytes);
                 encoded_[i].bytes = {};
-            }
-        };
-        std::vector<std::jthread> helpers;
-        const std::size_t processors =
-            std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kMaxThreads);
-        for (std::size_t i = 1; i < std::min(processors, encoded_.size()); ++i) {
-            helpers.emplace_back(work);
-        }
-        work();
-        helpers.clear();
+            },
+            {}, kMaxThreads);
         for (Encoded& image : encoded_) {
             if (image.texels) {
                 context_.file.images[image.image] = std::move(*image.texels);

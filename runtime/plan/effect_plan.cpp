@@ -302,10 +302,6 @@ void planBackdrop(const PlanInput& input, EffectPlan& result) {
                               {result.backdrop ? 1u : 0u, 0, 0, 0}});
 }
 
-} // namespace
-
-namespace {
-
 struct OwnEstimator {
     Feature feature;
     lighting::Estimator estimator;

@@ -151,6 +151,15 @@ double lightChange(const LightState& then, const LightState& now) {
                                               : std::numeric_limits<double>::infinity();
 }
 
+double progressOf(const ProbeHistory& history) {
+    const auto count = [](const std::array<bool, 6>& faces) {
+        return static_cast<double>(std::count(faces.begin(), faces.end(), true));
+    };
+    const double drawn = count(history.drawn);
+    const double all = drawn + count(history.stale);
+    return all > 0.0 ? drawn / all : 1.0;
+}
+
 void observe(ProbeHistory& history, ProbeView& view, const MovedIndex& moved,
              const LightState& light, double lightThreshold) {
     using lighting::ProbeUpdate;

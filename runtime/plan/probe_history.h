@@ -85,6 +85,10 @@ struct ProbeHistory {
     bool operator==(const ProbeHistory&) const = default;
 };
 
+/// How far a probe's round of faces has come, [0, 1]: 1 where nothing is stale and all that was
+/// drawn shows.
+[[nodiscard]] double progressOf(const ProbeHistory& history);
+
 /// Marks what has changed since the frame before and fills the view's part that comes of it.
 /// `view`'s influence, position, capture, update, every, fromFile are set already.
 void observe(ProbeHistory& history, ProbeView& view, const MovedIndex& moved,

@@ -124,8 +124,8 @@ plan::DrawView drawView(const Scene& scene, const DrawItem& item, std::size_t in
         draw.distance = -glm::vec3(view.cameraFromWorld * glm::vec4(bounds.center(), 1.0f)).z;
     }
     // Estimators that read other mips are the frame's alone: one chain is bound.
-    draw.specular = lighting::readsTentMips(settings.specular.kind)
-                        ? materialOf(scene, primitive).specularEstimator.value_or(settings.specular)
+    const bool own = lighting::readsTentMips(settings.specular.kind) && !settings.materialOverride;
+    draw.specular = own ? materialOf(scene, primitive).specularEstimator.value_or(settings.specular)
                         : settings.specular;
     draw.toleratedError = draw.specular.kind == lighting::EstimatorKind::Auto
                               ? static_cast<double>(draw.specular.tolerance)

@@ -53,4 +53,24 @@ float writtenFactor(const Scene& scene, const GpuEnvironment& environment,
     return static_cast<float>(std::exp2(-octaves));
 }
 
+plan::EnvironmentView beside(plan::EnvironmentView environment, const GpuLights& lights) {
+    environment.replacedBy = lights.replacement();
+    environment.present = environment.present && environment.replacedBy.empty();
+    return environment;
+}
+
+void describeLights(const Scene& scene, const std::vector<DrawItem>& items, double hour,
+                    GpuLights& lights, ShadowMaps& shadows, plan::PlanInput& input) {
+    input.rsrmLights = lights.describe(hour);
+    input.rsrmPublished = lights.published();
+    input.rsrmGreatestExponent = lights.greatestExponent();
+    std::vector<glm::dvec3> axes;
+    for (std::size_t i = 0; i < input.rsrmLights.size(); ++i) {
+        axes.push_back(lights.axis(i));
+    }
+    if (!axes.empty()) {
+        shadows.describe(scene, items, axes, input);
+    }
+}
+
 } // namespace lodestar::scene

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// What lights the world, as light probes need to know it.
+// What lights the world, as the planner and light probes need to know it.
 #pragma once
 
 #include "plan/probe_history.h"
+#include "scene/draw_list.h"
 #include "scene/gpu_environment.h"
 #include "scene/gpu_lights.h"
 #include "scene/scene.h"
+#include "scene/shadow_maps.h"
 
 namespace lodestar::scene {
 
@@ -17,5 +19,13 @@ namespace lodestar::scene {
 /// twice the sum of everything's greatest radiance.
 [[nodiscard]] float writtenFactor(const Scene& scene, const GpuEnvironment& environment,
                                   const GpuLights& lights);
+
+/// An environment beside lights: a sky that is not added stands in its place.
+[[nodiscard]] plan::EnvironmentView beside(plan::EnvironmentView environment,
+                                           const GpuLights& lights);
+
+/// Fills the input's lights and shadows of an hour.
+void describeLights(const Scene& scene, const std::vector<DrawItem>& items, double hour,
+                    GpuLights& lights, ShadowMaps& shadows, plan::PlanInput& input);
 
 } // namespace lodestar::scene

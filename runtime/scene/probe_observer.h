@@ -36,6 +36,10 @@ public:
     /// Asks for a capture of one whose update is on demand.
     void request(std::size_t index) { histories_[index].requested = true; }
     [[nodiscard]] bool isReady(std::size_t index) const { return histories_[index].ready; }
+    /// How far its round of faces has come, plan::progressOf.
+    [[nodiscard]] double progress(std::size_t index) const {
+        return plan::progressOf(histories_[index]);
+    }
     /// What is kept of a probe is lost: it is captured anew.
     void forget(std::size_t index) { histories_[index] = {}; }
 

@@ -232,6 +232,10 @@ const core::Tally& Renderer::lightWarnings() const {
     return state_->lights.warnings();
 }
 
+bool Renderer::awaitsForecast() const {
+    return state_->forecastAwaited;
+}
+
 std::size_t Renderer::probeCount() const {
     return state_->observer.count();
 }
@@ -248,6 +252,10 @@ bool Renderer::isProbeReady(std::size_t probe) const {
     return state_->observer.isReady(probe);
 }
 
+double Renderer::probeProgress(std::size_t probe) const {
+    return state_->observer.progress(probe);
+}
+
 core::Image Renderer::readProbe(std::size_t probe, int face, int level) const {
     return state_->probes.read(probe, face, level);
 }
@@ -255,31 +263,6 @@ core::Image Renderer::readProbe(std::size_t probe, int face, int level) const {
 const core::Tally& Renderer::probeWarnings() const {
     return state_->probeWarnings;
 }
-
-namespace {
-
-/// A sky that is not added stands in the environment's place.
-plan::EnvironmentView beside(plan::EnvironmentView environment, const GpuLights& lights) {
-    environment.replacedBy = lights.replacement();
-    environment.present = environment.present && environment.replacedBy.empty();
-    return environment;
-}
-
-void describeLights(const Scene& scene, const std::vector<DrawItem>& items, double hour,
-                    GpuLights& lights, ShadowMaps& shadows, plan::PlanInput& input) {
-    input.rsrmLights = lights.describe(hour);
-    input.rsrmPublished = lights.published();
-    input.rsrmGreatestExponent = lights.greatestExponent();
-    std::vector<glm::dvec3> axes;
-    for (std::size_t i = 0; i < input.rsrmLights.size(); ++i) {
-        axes.push_back(lights.axis(i));
-    }
-    if (!axes.empty()) {
-        shadows.describe(scene, items, axes, input);
-    }
-}
-
-} // namespace
 
 plan::PlanInput planInput(const Scene& scene, const View& view, const RenderSettings& settings,
                           plan::EnvironmentView environment,

@@ -104,6 +104,10 @@ public:
     /// Counts of light probes that got less than they asked for.
     [[nodiscard]] const core::Tally& probeWarnings() const;
 
+    /// Whether the last frame used `tent` where `auto` has not chosen yet: the next may look
+    /// better.
+    [[nodiscard]] bool awaitsForecast() const;
+
     /// Light probes stand in the order of the scene's nodes.
     [[nodiscard]] std::size_t probeCount() const;
     [[nodiscard]] const std::string& probeName(std::size_t probe) const;
@@ -111,6 +115,9 @@ public:
     void requestProbe(std::size_t probe);
     /// Whether a probe lights what it holds: it has been captured whole.
     [[nodiscard]] bool isProbeReady(std::size_t probe) const;
+    /// How far the faces that it captures anew have come, [0, 1]; they show when all have been
+    /// drawn.
+    [[nodiscard]] double probeProgress(std::size_t probe) const;
     /// A face of what a probe lights with, as GpuProbes::read.
     [[nodiscard]] core::Image readProbe(std::size_t probe, int face, int level = 0) const;
 

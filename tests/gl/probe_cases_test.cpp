@@ -256,9 +256,19 @@ TEST_F(ProbeCases, WithoutABudgetNothingIsDrawnAndNothingIsLost) {
         EXPECT_EQ(frame.counters.probeFaces, 0u);
         EXPECT_NEAR(frame.radiance.at(16, 16)[1], 0.55f, 0.02f); // the sky lights it until then
     }
-    settings.faceBudget = 6;
-    EXPECT_EQ(frameOf(*renderer, view, settings).counters.probeFaces, 6u);
+    EXPECT_EQ(renderer->probeProgress(0), 0.0);
+    settings.faceBudget = 4;
+    EXPECT_EQ(frameOf(*renderer, view, settings).counters.probeFaces, 4u);
+    EXPECT_FALSE(renderer->isProbeReady(0));
+    EXPECT_DOUBLE_EQ(renderer->probeProgress(0), 4.0 / 6.0);
+    EXPECT_EQ(frameOf(*renderer, view, settings).counters.probeFaces, 2u);
     EXPECT_TRUE(renderer->isProbeReady(0));
+    EXPECT_EQ(renderer->probeProgress(0), 1.0);
+    renderer->requestProbe(0);
+    settings.faceBudget = 3;
+    EXPECT_EQ(frameOf(*renderer, view, settings).counters.probeFaces, 3u);
+    EXPECT_EQ(renderer->probeProgress(0), 0.5);
+    EXPECT_TRUE(renderer->isProbeReady(0)); // it goes on showing what it held
 }
 
 lighting::DayLight constantLight(lighting::LightKind kind) {
