@@ -93,9 +93,10 @@ std::vector<CostedLookup> costedLookups() {
     for (const Term term : {Term::Glossy, Term::Diffuse}) {
         // Without a pixel's footprint `mip-floor` is `mip`; the level of `bias` is chosen by hand.
         const std::vector<const char*> names =
-            term == Term::Glossy ? std::vector<const char*>{"mip",    "tent",    "ring:3", "ring:7",
-                                                            "taps:4", "taps:16", "taps:64"}
-                                 : std::vector<const char*>{"lowest-mip", "sh9", "irradiance"};
+            term == Term::Glossy
+                ? std::vector<const char*>{"mip",    "tent",    "ring:3",  "ring:7",
+                                           "taps:4", "taps:16", "taps:64", "prefiltered"}
+                : std::vector<const char*>{"lowest-mip", "sh9", "irradiance"};
         for (const char* name : names) {
             lookups.push_back({name, term, *lighting::parseEstimator(name, term), nullptr});
         }

@@ -18,6 +18,7 @@
 #include "io/environment_file.h"
 #include "io/file.h"
 #include "lighting/mips.h"
+#include "lighting/prefiltered.h"
 #include "lodestar/lobes.glsl"
 
 namespace lodestar::app {
@@ -246,6 +247,10 @@ Sampler::environment(const std::string& text, int width, const lighting::Prepare
     if (parts.tentMips && !entry.parts.tentMips) {
         made.tentMips = lighting::tentMips(made.base);
         entry.parts.tentMips = true;
+    }
+    if (parts.prefilteredMips && !entry.parts.prefilteredMips) {
+        made.prefilteredMips = lighting::prefilteredMips(made.base);
+        entry.parts.prefilteredMips = true;
     }
     if (parts.sh9 && !entry.parts.sh9) {
         made.sh9 = lighting::sh9FromCube(made.base);

@@ -227,7 +227,7 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("--size", options.size, "Picture size WxH")->capture_default_str();
     command.add_option("--specular", options.specular,
                        "Glossy estimator: tent (default), auto:ERROR, ring:3, ring:7, taps:N,\n"
-                       "mip, mip-floor, bias:LAMBDA, bias:LAMBDA:vertex.\n"
+                       "prefiltered, mip, mip-floor, bias:LAMBDA, bias:LAMBDA:vertex.\n"
                        "Of a document's lights, both terms: rsrm (default), rsrm-published,\n"
                        "rsrm-published-columns");
     command.add_option(

@@ -40,6 +40,7 @@ constexpr KeyBinding kBindings[] = {
     {Key::Digit7, kNone, Action::ChooseSpecular, 6},
     {Key::Digit8, kNone, Action::ChooseSpecular, 7},
     {Key::Digit9, kNone, Action::ChooseSpecular, 8},
+    {Key::Digit0, kNone, Action::ChooseSpecular, 9},
     {Key::Digit1, kShift, Action::ChooseDiffuse, 0},
     {Key::Digit2, kShift, Action::ChooseDiffuse, 1},
     {Key::Digit3, kShift, Action::ChooseDiffuse, 2},
@@ -70,8 +71,8 @@ constexpr HelpLine kHelp[] = {
     {"T, shift + T", "the lighting document's day: a quarter of an hour later, earlier"},
     {"Y, shift + Y", "play or pause the day, change its speed"},
     {"+, -", "brighter, darker by a quarter of a stop"},
-    {"1 .. 9", "glossy light: tent, mip, mip-floor, bias:2, bias:2:vertex, ring:3, ring:7, "
-               "taps:64, auto:0.05"},
+    {"1 .. 9, 0", "glossy light: tent, mip, mip-floor, bias:2, bias:2:vertex, ring:3, ring:7, "
+                  "taps:64, auto:0.05, prefiltered"},
     {"1 .. 3", "under a lighting document alone: rsrm, rsrm-published, rsrm-published-columns"},
     {"shift + 1 .. 4", "diffuse light: irradiance, sh9, lowest-mip, bias:7"},
     {"V", "the picture's error against light by many taps a pixel, in per cent, or the picture"},
@@ -91,7 +92,8 @@ constexpr lighting::Estimator kSpecular[] = {{EstimatorKind::Tent, 0.0f},
                                              {EstimatorKind::Ring3},
                                              {EstimatorKind::Ring7},
                                              {EstimatorKind::Taps, 0.0f, 64},
-                                             {EstimatorKind::Auto, 0.0f, 16, 0.05f}};
+                                             {EstimatorKind::Auto, 0.0f, 16, 0.05f},
+                                             {EstimatorKind::Prefiltered}};
 constexpr lighting::Estimator kDiffuse[] = {{EstimatorKind::Irradiance, 0.0f},
                                             {EstimatorKind::Sh9, 0.0f},
                                             {EstimatorKind::LowestMip, 0.0f},

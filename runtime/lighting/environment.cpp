@@ -7,6 +7,7 @@
 
 #include "core/contract.h"
 #include "lighting/mips.h"
+#include "lighting/prefiltered.h"
 #include "lighting/solid_angle.h"
 #include "lodestar/cube.glsl"
 
@@ -194,6 +195,9 @@ PreparedEnvironment prepare(Cubemap base, const PreparedParts& parts) {
     }
     if (parts.tentMips) {
         environment.tentMips = tentMips(environment.base);
+    }
+    if (parts.prefilteredMips) {
+        environment.prefilteredMips = prefilteredMips(environment.base);
     }
     if (parts.sh9) {
         environment.sh9 = sh9FromCube(environment.base);

@@ -88,6 +88,7 @@ struct PreparedParts {
     bool tentMips = false;
     bool sh9 = false;
     bool irradiance = false;
+    bool prefilteredMips = false;
     bool operator==(const PreparedParts&) const = default;
 };
 
@@ -111,6 +112,7 @@ struct PreparedEnvironment {
     Cubemap tentMips;   ///< full chain
     Cubemap irradiance; ///< over pi
     Sh9Coefficients sh9{};
+    Cubemap prefilteredMips; ///< full chain
 };
 
 [[nodiscard]] PreparedEnvironment prepare(Cubemap base, const PreparedParts& parts);

@@ -25,6 +25,7 @@ constexpr std::array kRows{
     Row{EstimatorKind::Ring3, "ring:3", true, false},
     Row{EstimatorKind::Ring7, "ring:7", true, false},
     Row{EstimatorKind::Taps, "taps:N", true, false},
+    Row{EstimatorKind::Prefiltered, "prefiltered", true, false},
     Row{EstimatorKind::Auto, "auto:ERROR", true, false},
     Row{EstimatorKind::LowestMip, "lowest-mip", false, true},
     Row{EstimatorKind::Sh9, "sh9", false, true},
@@ -179,6 +180,10 @@ bool readsTentMips(EstimatorKind kind) {
     return kind == EstimatorKind::Tent || kind == EstimatorKind::Ring3 ||
            kind == EstimatorKind::Ring7 || kind == EstimatorKind::Taps ||
            kind == EstimatorKind::Auto;
+}
+
+bool followsLobe(EstimatorKind kind) {
+    return readsTentMips(kind) || kind == EstimatorKind::Prefiltered;
 }
 
 bool serves(EstimatorKind kind, Term term) {

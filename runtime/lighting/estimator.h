@@ -13,19 +13,20 @@
 namespace lodestar::lighting {
 
 enum class EstimatorKind {
-    Mip,        ///< `mip`: McGuire 2013 as published; plain mips, exponent as given
-    MipFloor,   ///< `mip-floor`: the same, level raised to the pixel's footprint
-    Bias,       ///< `bias:LAMBDA`: Ashikhmin and Ghosh 2002, a least level per object
-    BiasVertex, ///< `bias:LAMBDA:vertex`: the same, per vertex, sharper at grazing angles
-    Tent,       ///< `tent`: one fetch from tent mips
-    Ring3,      ///< `ring:3`: three taps about the lobe's axis, from tent mips
-    Ring7,      ///< `ring:7`: six taps about the lobe's axis and the axis itself
-    Taps,       ///< `taps:N`: N taps on a spiral, from tent mips
-    Auto,       ///< `auto:ERROR`: the cheapest of ErrorForecast's that is right enough
-    LowestMip,  ///< `lowest-mip`: Lambert from the coarsest plain mip, as published
-    Sh9,        ///< `sh9`: nine spherical-harmonic coefficients
-    Irradiance, ///< `irradiance`: a 16x16 irradiance cube
-    Reference,  ///< `reference`: double precision over all texels, CPU only
+    Mip,         ///< `mip`: McGuire 2013 as published; plain mips, exponent as given
+    MipFloor,    ///< `mip-floor`: the same, level raised to the pixel's footprint
+    Bias,        ///< `bias:LAMBDA`: Ashikhmin and Ghosh 2002, a least level per object
+    BiasVertex,  ///< `bias:LAMBDA:vertex`: the same, per vertex, sharper at grazing angles
+    Tent,        ///< `tent`: one fetch from tent mips
+    Ring3,       ///< `ring:3`: three taps about the lobe's axis, from tent mips
+    Ring7,       ///< `ring:7`: six taps about the lobe's axis and the axis itself
+    Taps,        ///< `taps:N`: N taps on a spiral, from tent mips
+    Prefiltered, ///< `prefiltered`: one fetch from levels that are means over lobes
+    Auto,        ///< `auto:ERROR`: the cheapest of ErrorForecast's that is right enough
+    LowestMip,   ///< `lowest-mip`: Lambert from the coarsest plain mip, as published
+    Sh9,         ///< `sh9`: nine spherical-harmonic coefficients
+    Irradiance,  ///< `irradiance`: a 16x16 irradiance cube
+    Reference,   ///< `reference`: double precision over all texels, CPU only
 };
 
 enum class Term { Glossy, Diffuse };
@@ -64,6 +65,10 @@ inline constexpr Estimator kDefaultDiffuse{EstimatorKind::Irradiance, 0.0f};
 /// Whether it reads tent mips about the lookup of a Blinn-Phong lobe: `tent`, rings, taps
 /// and what `auto` chooses.
 [[nodiscard]] bool readsTentMips(EstimatorKind kind);
+
+/// Whether it is about the lookup of a Blinn-Phong lobe and blends into Lambert's below exponent 1:
+/// those that read tent mips, and `prefiltered`. The published ones are about the reflection.
+[[nodiscard]] bool followsLobe(EstimatorKind kind);
 
 /// Whether the term can be estimated so: `bias` and `reference` for both, the others for one.
 [[nodiscard]] bool serves(EstimatorKind kind, Term term);

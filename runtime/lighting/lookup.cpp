@@ -65,6 +65,9 @@ namespace {
 constexpr float kNoFootprint = -std::numeric_limits<float>::infinity();
 
 const Cubemap& mipsFor(const PreparedEnvironment& environment, EstimatorKind kind) {
+    if (kind == EstimatorKind::Prefiltered) {
+        return environment.prefilteredMips;
+    }
     return readsTentMips(kind) ? environment.tentMips : environment.boxMips;
 }
 
@@ -95,9 +98,9 @@ LookupAnswer lookupSh9(const PreparedEnvironment& environment, const glm::vec3& 
             -1.0, 0};
 }
 
-/// A Phong lobe about a direction from tent mips.
-glm::vec3 fetchTents(shader::CpuHost& host, const shader::CpuHost::LodestarCube& cube,
-                     const Estimator& estimator, const glm::vec3& direction, float exponent) {
+/// A Phong lobe about a direction.
+glm::vec3 fetchLobe(shader::CpuHost& host, const shader::CpuHost::LodestarCube& cube,
+                    const Estimator& estimator, const glm::vec3& direction, float exponent) {
     switch (estimator.kind) {
     case EstimatorKind::Ring3:
         return host.lodestar_specularRing(cube, direction, exponent, kNoFootprint, 3);
@@ -105,6 +108,8 @@ glm::vec3 fetchTents(shader::CpuHost& host, const shader::CpuHost::LodestarCube&
         return host.lodestar_specularRing(cube, direction, exponent, kNoFootprint, 7);
     case EstimatorKind::Taps:
         return host.lodestar_specularTaps(cube, direction, exponent, kNoFootprint, estimator.taps);
+    case EstimatorKind::Prefiltered:
+        return host.lodestar_specularPrefiltered(cube, direction, exponent, kNoFootprint);
     default:
         return host.lodestar_specularTent(cube, direction, exponent, kNoFootprint);
     }
@@ -125,12 +130,13 @@ glm::vec3 fetch(shader::CpuHost& host, const shader::CpuHost::LodestarCube& cube
     case EstimatorKind::Tent:
     case EstimatorKind::Ring3:
     case EstimatorKind::Ring7:
-    case EstimatorKind::Taps: {
+    case EstimatorKind::Taps:
+    case EstimatorKind::Prefiltered: {
         if (request.lobe == Lobe::Phong) {
-            return fetchTents(host, cube, request.estimator, direction, exponent);
+            return fetchLobe(host, cube, request.estimator, direction, exponent);
         }
         const auto converted = host.lodestar_lookup(direction, direction, exponent);
-        return fetchTents(host, cube, request.estimator, converted.direction, converted.exponent);
+        return fetchLobe(host, cube, request.estimator, converted.direction, converted.exponent);
     }
     case EstimatorKind::LowestMip:
         return glm::vec3(host.lodestar_host_cube(cube.slot, direction, cube.maxLevel));
@@ -159,6 +165,9 @@ PreparedParts partsFor(const Estimator& estimator) {
     case EstimatorKind::Taps:
     case EstimatorKind::Auto:
         parts.tentMips = true;
+        break;
+    case EstimatorKind::Prefiltered:
+        parts.prefilteredMips = true;
         break;
     case EstimatorKind::Sh9:
         parts.sh9 = true;

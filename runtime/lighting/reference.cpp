@@ -19,6 +19,7 @@
 #include "lodestar/power.glsl"
 
 #include "core/parallel.h"
+#include "lighting/cube_rows.h"
 #include "lighting/lookup.h"
 
 namespace lodestar::lighting {
@@ -64,58 +65,10 @@ std::shared_ptr<const FaceGrid> gridFor(int width) {
     return grid;
 }
 
-/// A linear function of direction as one of (u, v) on a face: constant + alongU u + alongV v.
-struct FaceLinear {
-    double constant = 0.0;
-    double alongU = 0.0;
-    double alongV = 0.0;
-};
-
-FaceLinear onFace(int face, const dvec3& axis) {
-    const auto at = [&](double u, double v) {
-        return glm::dot(axis, shader_double::lodestar_cubeDirection(face, u, v));
-    };
-    const double centre = at(0.0, 0.0);
-    return {centre, at(1.0, 0.0) - centre, at(0.0, 1.0) - centre};
-}
-
 struct WeightedSum {
     dvec3 radiance{0.0};
     double weight = 0.0;
 };
-
-/// Columns of a row, [begin, end).
-struct Columns {
-    std::size_t begin;
-    std::size_t end;
-};
-
-/// Columns of row v outside which no texel's cosine with an axis exceeds `least`, one more at
-/// either end. (c + a u)^2 > least^2 (1 + v^2 + u^2) lies between two roots where a^2 < least^2;
-/// elsewhere, and where the roots lose their digits, all columns.
-Columns columnsWithin(const FaceLinear& axis, double v, double least, std::size_t width) {
-    constexpr double kLeastCurvature = 1e-3;
-    constexpr double kRounding = 1e-12;
-    const double c = axis.constant + axis.alongV * v;
-    const double curvature = least * least - axis.alongU * axis.alongU;
-    if (curvature < kLeastCurvature) {
-        return {0, width};
-    }
-    const double middle = c * axis.alongU / curvature;
-    const double squared = middle * middle + (c * c - least * least * (1.0 + v * v)) / curvature;
-    if (squared < -kRounding / curvature) {
-        return {0, 0};
-    }
-    const double reach = std::sqrt(std::max(squared, 0.0));
-    const auto columns = static_cast<double>(width);
-    const auto column = [&](double u) {
-        return std::clamp((u + 1.0) * 0.5 * columns, 0.0, columns);
-    };
-    const double begin = std::floor(column(middle - reach)) - 1.0;
-    const double end = std::ceil(column(middle + reach)) + 1.0;
-    return {static_cast<std::size_t>(std::max(begin, 0.0)),
-            static_cast<std::size_t>(std::min(end, columns))};
-}
 
 /// Rows that one thread sums at a time; below two such pieces a thread more does not pay.
 constexpr std::size_t kRowsAtOnce = 32;
@@ -140,7 +93,7 @@ WeightedSum sumOverTexels(const Cubemap& base, const std::array<dvec3, Axes>& ax
     const auto sumRow = [&](std::size_t row) {
         const std::array<FaceLinear, Axes>& onThis = linear[row / width];
         const double v = grid->coordinates[row % width];
-        const Columns kept = columns(onThis, v);
+        const TexelRange kept = columns(onThis, v);
         WeightedSum sum;
         for (std::size_t x = kept.begin; x < kept.end; ++x) {
             const std::size_t inFace = row % width * width + x;
@@ -293,7 +246,7 @@ glm::dvec3 referenceBlinnPhong(const Cubemap& base, const glm::dvec3& normal,
     WeightedSum sum;
     if (narrow < 1.0) {
         const double least = leastCosine(s);
-        const Columns all{0, static_cast<std::size_t>(base.width())};
+        const TexelRange all{0, static_cast<std::size_t>(base.width())};
         const auto everywhere = [&](const auto&, double) { return all; };
         sum = sumOverTexels<2>(
             base, {n, v}, run, everywhere, [&](const std::array<double, 2>& cosines) {

@@ -132,9 +132,10 @@ void planEnvironment(const PlanInput& input, const Receivers& receivers, EffectP
     const std::uint64_t chain = chainTexels(input.environment.width);
     const std::uint64_t small =
         std::uint64_t{6} * lighting::kIrradianceWidth * lighting::kIrradianceWidth;
-    const std::array<Part, 4> parts = {{
+    const std::array<Part, 5> parts = {{
         {"tent-mips", &PreparedParts::tentMips, chain, {}},
         {"box-mips", &PreparedParts::boxMips, chain, {}},
+        {"prefiltered-mips", &PreparedParts::prefilteredMips, chain, {}},
         {"irradiance", &PreparedParts::irradiance, small, {}},
         {"sh9", &PreparedParts::sh9, 0, {}},
     }};
@@ -144,9 +145,9 @@ void planEnvironment(const PlanInput& input, const Receivers& receivers, EffectP
         const bool lambert = present && receivers.diffuse && forDiffuse.*part.member;
         // The backdrop and compositions read whichever chain there is; they ask for one only alone.
         const bool composes = !result.probeWork.empty();
-        const bool seenOnly = present && part.member == &PreparedParts::tentMips &&
-                              (input.backdrop || composes) &&
-                              !(receivers.glossy && forSpecular.boxMips);
+        const bool seenOnly =
+            present && part.member == &PreparedParts::tentMips && (input.backdrop || composes) &&
+            !(receivers.glossy && (forSpecular.boxMips || forSpecular.prefilteredMips));
         if (glossy || lambert) {
             part.askedBecause = glossy ? specular : diffuse;
         } else if (seenOnly) {

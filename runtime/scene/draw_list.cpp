@@ -69,10 +69,9 @@ void setTerms(plan::DrawView& draw, const io::GltfMaterial& material,
             (material.metallic < 1.0f || textured) && !isBlack(glm::vec3(material.baseColor));
         draw.glossy = true; // Fresnel's rise at grazing angles, whatever F0 is
     }
-    // Below an exponent of 1 the glossy lobe by tent mips blends into Lambert's.
-    draw.diffuse =
-        draw.diffuse || (draw.glossy && lighting::readsTentMips(settings.specular.kind) &&
-                         leastExponent(material, settings) < 1.0f);
+    // Below an exponent of 1 the glossy lobe by estimators that follow it blends into Lambert's.
+    draw.diffuse = draw.diffuse || (draw.glossy && lighting::followsLobe(settings.specular.kind) &&
+                                    leastExponent(material, settings) < 1.0f);
 }
 
 /// Which share of the picture a box may cover: its sphere's square, 1 about the eye.

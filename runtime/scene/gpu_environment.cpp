@@ -2,9 +2,11 @@
 #include "scene/gpu_environment.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 
 #include "lighting/drawn_texels.h"
+#include "lighting/lookup.h"
 #include "lighting/mips.h"
 #include "scene/gpu_scene.h"
 
@@ -56,6 +58,8 @@ core::Result<void> GpuEnvironment::prepare(gl::Device& device,
     const Upload uploads[] = {
         {&lighting::PreparedParts::tentMips, made.tentMips, tentMips_, "tent mips"},
         {&lighting::PreparedParts::boxMips, made.boxMips, boxMips_, "box mips"},
+        {&lighting::PreparedParts::prefilteredMips, made.prefilteredMips, prefilteredMips_,
+         "prefiltered mips"},
         {&lighting::PreparedParts::irradiance, made.irradiance, irradiance_, "irradiance"},
     };
     for (const Upload& upload : uploads) {
@@ -77,8 +81,16 @@ core::Result<void> GpuEnvironment::prepare(gl::Device& device,
 
 /// The chain that the glossy estimator reads; for the backdrop any chain will do.
 const gl::Texture& GpuEnvironment::glossyCube(const RenderSettings& settings) const {
-    const bool box = !lighting::readsTentMips(settings.specular.kind);
-    return (box && boxMips_) || !tentMips_ ? boxMips_ : tentMips_;
+    const lighting::PreparedParts parts = lighting::partsFor(settings.specular);
+    const gl::Texture& wanted = parts.tentMips          ? tentMips_
+                                : parts.prefilteredMips ? prefilteredMips_
+                                                        : boxMips_;
+    const std::array<const gl::Texture*, 4> cubes = {&wanted, &tentMips_, &boxMips_,
+                                                     &prefilteredMips_};
+    const auto* there = std::find_if(cubes.begin(), cubes.end() - 1, [](const gl::Texture* cube) {
+        return static_cast<bool>(*cube);
+    });
+    return **there;
 }
 
 const gl::Texture* GpuEnvironment::diffuseCube(const RenderSettings& settings) const {

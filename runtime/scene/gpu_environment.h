@@ -58,7 +58,7 @@ private:
     std::shared_future<lighting::ErrorForecast> forecast_;
     lighting::PreparedParts prepared_;
     lighting::Sh9Coefficients sh9_{};
-    gl::Texture tentMips_, boxMips_, irradiance_;
+    gl::Texture tentMips_, boxMips_, prefilteredMips_, irradiance_;
     gl::Texture fineIrradiance_, drawnTexels_; ///< for references
 };
 

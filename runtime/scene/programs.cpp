@@ -27,6 +27,8 @@ int specularMacro(EstimatorKind kind) {
         return 5;
     case EstimatorKind::Taps:
         return 6;
+    case EstimatorKind::Prefiltered:
+        return 7;
     default:
         return 3;
     }

@@ -149,6 +149,36 @@ LODESTAR_FN Real lodestar_tentLevel(vec3 d, Real exponent, Real width, Real maxL
     return clamp(level, Real(0.0f), maxLevel);
 }
 
+/// The Phong exponent of the lobe that a prefiltered level is read for: s + 1 is 3/16 of the square of
+/// its faces' width, so that the lobe's spread is that of 8/3 texels of the mean size, and 1 at least
+/// (PRE-1).
+/// @param level >= 1; level 0 is the map itself  @param width of level 0, >= 1
+LODESTAR_FN Real lodestar_prefilteredExponent(Real level, Real width) {
+    Real n = width * exp2(-level);
+    return max(LODESTAR_LITERAL(0.1875) * n * n, Real(1.0f)) - 1.0f;
+}
+
+/// The level for one fetch from prefiltered mips. Between two levels that hold lobes of spreads a and
+/// b = r a, one of spread v = q a is nearest, in the mean square, at the fraction
+/// f = r (q - 1) (q + r + 2) / ((r - 1) (q + r) (q + 1)) (PRE-4); level 0 is read for a spread of a
+/// sixth of a texel's area.
+/// @param exponent [0, 1e7]
+LODESTAR_FN Real lodestar_prefilteredLevel(Real exponent, Real width, Real maxLevel) {
+    Real s = lodestar_repairExponent(exponent);
+    // 0.5 log2(3/16): the level whose own lobe this is.
+    Real own = log2(width) - LODESTAR_LITERAL(1.2075187496) - 0.5f * log2(s + 1.0f);
+    Real below = clamp(floor(own), Real(0.0f), max(maxLevel - 1.0f, Real(0.0f)));
+    Real fine = below > 0.0f ? 1.0f / (lodestar_prefilteredExponent(below, width) + 2.0f)
+                             : LODESTAR_LITERAL(0.66666667) / (width * width);
+    Real r = 1.0f / ((lodestar_prefilteredExponent(below + 1.0f, width) + 2.0f) * fine);
+    Real q = clamp(1.0f / ((s + 2.0f) * fine), Real(1.0f), max(r, Real(1.0f)));
+    if (!(r > 1.0f)) {
+        return below;
+    }
+    Real fraction = r * (q - 1.0f) * (q + r + 2.0f) / ((r - 1.0f) * (q + r) * (q + 1.0f));
+    return clamp(below + fraction, Real(0.0f), maxLevel);
+}
+
 /// The least level of `bias` for one vertex: the object's, sharpened towards grazing angles, where
 /// the Blinn-Phong lobe about the reflection covers n.v times the solid angle it covers at n = v
 /// (a lobe of the half vector is 4 h.v times larger about the reflection; MIP-8). Ashikhmin and

@@ -37,6 +37,7 @@
 #define LODESTAR_SPECULAR_RING3 4
 #define LODESTAR_SPECULAR_RING7 5
 #define LODESTAR_SPECULAR_TAPS 6
+#define LODESTAR_SPECULAR_PREFILTERED 7
 #endif
 #ifndef LODESTAR_TAPS
 #define LODESTAR_TAPS 16
@@ -180,6 +181,14 @@ LODESTAR_FN vec3 lodestar_specularTaps(LodestarCube cube, vec3 direction, Real e
     return sum * (1.0f / Real(count));
 }
 
+/// One fetch from prefiltered mips for a Phong lobe about a direction, raised to the pixel's footprint.
+LODESTAR_FN vec3 lodestar_specularPrefiltered(LodestarCube cube, vec3 direction, Real exponent,
+                                              Real footprint) {
+    Real level = lodestar_prefilteredLevel(exponent, cube.width, cube.maxLevel);
+    level = lodestar_raiseLevel(level, footprint, cube.maxLevel);
+    return vec3(lodestar_host_cube(cube.slot, direction, level));
+}
+
 /// Radiance over a Phong lobe about a direction from tent mips, by as many taps as LODESTAR_SPECULAR
 /// says; by one where it reads other mips.
 LODESTAR_FN vec3 lodestar_specularOfTents(LodestarCube cube, vec3 direction, Real exponent,
@@ -210,7 +219,11 @@ LODESTAR_FN vec3 lodestar_specular(LodestarCube cube, LodestarSurface surface, v
     return lodestar_specularBias(cube, r, footprint);
 #else
     LodestarLookup lookup = lodestar_lookup(surface.normal, surface.view, surface.exponent);
+#if LODESTAR_SPECULAR == LODESTAR_SPECULAR_PREFILTERED
+    return lodestar_specularPrefiltered(cube, lookup.direction, lookup.exponent, footprint);
+#else
     return lodestar_specularOfTents(cube, lookup.direction, lookup.exponent, footprint);
+#endif
 #endif
 #endif
 }

@@ -8,6 +8,8 @@
 #include "lighting/environment.h"
 #include "lighting/lookup.h"
 #include "lighting/mips.h"
+#include "lighting/prefiltered.h"
+#include "lodestar/cube.glsl"
 
 namespace {
 
@@ -58,6 +60,42 @@ lighting::Cubemap irradianceCube(const lighting::Cubemap& base) {
 BENCHMARK(step<&irradianceCube>)->Name("irradianceCube/256")->Unit(benchmark::kMillisecond);
 BENCHMARK(step<&lighting::sh9FromCube>)->Name("sh9FromCube/256")->Unit(benchmark::kMillisecond);
 
+/// On one thread, from means and from the map itself.
+lighting::Cubemap prefilteredMips(const lighting::Cubemap& base) {
+    return lighting::prefilteredMips(base, {.threads = 1});
+}
+BENCHMARK(step<&prefilteredMips>)->Name("prefilteredMips/256")->Unit(benchmark::kMillisecond);
+lighting::Cubemap prefilteredFromBase(const lighting::Cubemap& base) {
+    return lighting::prefilteredMips(base, {.leastSourceWidth = base.width(), .threads = 1});
+}
+BENCHMARK(step<&prefilteredFromBase>)
+    ->Name("prefilteredMips from the map/256")
+    ->Unit(benchmark::kMillisecond);
+
+/// The same levels by brute force: each texel's lobe summed over the map's texels.
+lighting::Cubemap prefilteredByBruteForce(const lighting::Cubemap& base) {
+    lighting::Cubemap mips(base.width(), lighting::fullLevelCount(base.width()));
+    for (int level = 1; level < mips.levelCount(); ++level) {
+        const int n = mips.width(level);
+        const double exponent = static_cast<double>(shader::lodestar_prefilteredExponent(
+            static_cast<float>(level), static_cast<float>(base.width())));
+        for (int i = 0; i < 6 * n * n; ++i) {
+            const auto coordinate = [n](int at) {
+                return static_cast<float>(2 * at + 1) / static_cast<float>(n) - 1.0f;
+            };
+            const glm::dvec3 r = glm::normalize(glm::dvec3(shader::lodestar_cubeDirection(
+                i / (n * n), coordinate(i % n), coordinate(i / n % n))));
+            mips.level(level)[static_cast<std::size_t>(i)] =
+                glm::vec4(glm::vec3(lighting::referencePhong(base, r, exponent)), 1.0f);
+        }
+    }
+    return mips;
+}
+BENCHMARK(step<&prefilteredByBruteForce>)
+    ->Name("prefiltered by brute force/256")
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
+
 /// The sum over all texels: exponent, threads (0: all processors).
 void reference(benchmark::State& state) {
     const glm::dvec3 direction = glm::normalize(glm::dvec3(0.3, 0.5, 0.8));
@@ -87,6 +125,7 @@ void lookup(benchmark::State& state, const char* name) {
 }
 BENCHMARK_CAPTURE(lookup, mip, "mip");
 BENCHMARK_CAPTURE(lookup, tent, "tent");
+BENCHMARK_CAPTURE(lookup, prefiltered, "prefiltered");
 BENCHMARK_CAPTURE(lookup, reference, "reference")->Unit(benchmark::kMillisecond);
 
 } // namespace

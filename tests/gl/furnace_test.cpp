@@ -51,7 +51,8 @@ TEST_F(Furnace, EveryEstimatorAndExponentShowsOne) {
                                                               {"bias:2:vertex", "irradiance"},
                                                               {"ring:3", "irradiance"},
                                                               {"ring:7", "sh9"},
-                                                              {"taps:16", "irradiance"}};
+                                                              {"taps:16", "irradiance"},
+                                                              {"prefiltered", "irradiance"}};
     for (const auto& [specular, diffuse] : estimators) {
         settings.specular = *lighting::parseEstimator(specular, lighting::Term::Glossy);
         settings.diffuse = *lighting::parseEstimator(diffuse, lighting::Term::Diffuse);

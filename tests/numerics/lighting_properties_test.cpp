@@ -87,6 +87,8 @@ const std::vector<Ask> kAsks{{EstimatorKind::Mip, Lobe::Phong},
                              {EstimatorKind::BiasVertex, Lobe::Phong},
                              {EstimatorKind::Tent, Lobe::Phong},
                              {EstimatorKind::Tent, Lobe::BlinnPhong},
+                             {EstimatorKind::Prefiltered, Lobe::Phong},
+                             {EstimatorKind::Prefiltered, Lobe::BlinnPhong},
                              {EstimatorKind::LowestMip, Lobe::Lambert},
                              {EstimatorKind::Sh9, Lobe::Lambert},
                              {EstimatorKind::Irradiance, Lobe::Lambert},
@@ -217,7 +219,8 @@ RC_GTEST_PROP(Lookups, TurnWithTheMap, ()) {
 RC_GTEST_PROP(Lookups, LevelsFallWithTheExponent, ()) {
     LookupRequest asked = request();
     RC_PRE(asked.estimator.kind == EstimatorKind::Mip ||
-           asked.estimator.kind == EstimatorKind::Tent);
+           asked.estimator.kind == EstimatorKind::Tent ||
+           asked.estimator.kind == EstimatorKind::Prefiltered);
     const PreparedEnvironment environment =
         prepared(constantCube(16, glm::vec4(1.0f)), asked.estimator.kind);
     const double before = lighting::lookup(environment, asked).level;

@@ -264,7 +264,8 @@ TEST(Reference, BlinnPhongOfZeroIsLambert) {
 TEST(Furnace, EveryEstimatorLobeAndExponent) {
     // Radiance 1 everywhere gives 1: bilinear weights that sum to 1 in float to 2 roundings, over a
     // chain of 9 levels each kept to 6e-8, stay below 1e-6.
-    const auto prepared = lighting::prepare(constantCube(1.0f, 256), {true, true, true, true});
+    const auto prepared =
+        lighting::prepare(constantCube(1.0f, 256), {true, true, true, true, true});
     int answers = 0;
     for (const auto lobe : {Lobe::Phong, Lobe::BlinnPhong, Lobe::Lambert}) {
         const auto term = lobe == Lobe::Lambert ? lighting::Term::Diffuse : lighting::Term::Glossy;
@@ -292,11 +293,11 @@ TEST(Furnace, EveryEstimatorLobeAndExponent) {
             }
         }
     }
-    EXPECT_EQ(answers, (2 * 9 + 5) * 8 * 5); // estimators by lobe, exponents, directions
+    EXPECT_EQ(answers, (2 * 10 + 5) * 8 * 5); // estimators by lobe, exponents, directions
 }
 
 TEST(Lookup, CountsFetchesAndLevels) {
-    const auto prepared = lighting::prepare(constantCube(1.0f, 64), {true, true, true, true});
+    const auto prepared = lighting::prepare(constantCube(1.0f, 64), {true, true, true, true, true});
     const dvec3 up(0.0, 1.0, 0.0);
     const auto of = [&](Lobe lobe, double s, EstimatorKind kind) {
         return lighting::lookup(prepared, {lobe, s, up, {kind, 1.25f}});
@@ -317,6 +318,9 @@ TEST(Lookup, CountsFetchesAndLevels) {
     EXPECT_LT(of(Lobe::Phong, 64.0, EstimatorKind::Reference).level, 0.0);
     EXPECT_EQ(of(Lobe::Phong, 64.0, EstimatorKind::Ring3).fetches, 3);
     EXPECT_EQ(of(Lobe::Phong, 64.0, EstimatorKind::Ring7).fetches, 7);
+    EXPECT_EQ(of(Lobe::Phong, 64.0, EstimatorKind::Prefiltered).fetches, 1);
+    // Level 2 of 64 is made for 3 / 16 x 16^2 - 1 = 47.
+    EXPECT_EQ(of(Lobe::Phong, 47.0, EstimatorKind::Prefiltered).level, 2.0);
     EXPECT_EQ(of(Lobe::Phong, 64.0, EstimatorKind::Taps).fetches, 16);
     EXPECT_LT(of(Lobe::Phong, 64.0, EstimatorKind::Taps).level, 0.0); // several
     // As published the exponent is used as given; `tent` converts it, to about a quarter.

@@ -111,6 +111,9 @@ RC_GTEST_PROP(Cube, LevelsStayInTheChainAndFollowTheLobe, ()) {
               lodestar_mipLevel(s, width, maxLevel) + slack);
     RC_ASSERT(lodestar_tentLevel(d, more, width, maxLevel) <=
               lodestar_tentLevel(d, s, width, maxLevel) + slack);
+    RC_ASSERT(within(lodestar_prefilteredLevel(any, width, maxLevel), 0.0f, maxLevel));
+    RC_ASSERT(lodestar_prefilteredLevel(more, width, maxLevel) <=
+              lodestar_prefilteredLevel(s, width, maxLevel) + slack);
     // Twice the texels, one level more.
     RC_ASSERT(std::abs(lodestar_mipLevelUnclamped(s, 2.0f * width) -
                        lodestar_mipLevelUnclamped(s, width) - 1.0f) <= slack);

@@ -86,6 +86,13 @@ struct Host6 {
 #include "parity/helpers.glsl"
 #undef LODESTAR_SPECULAR
 };
+struct Host7 {
+#define LODESTAR_SPECULAR 7
+#include "lodestar/environment.glsl"
+#include "parity/environment_rows.inc"
+#include "parity/helpers.glsl"
+#undef LODESTAR_SPECULAR
+};
 struct RsrmHost {
 #include "lodestar/rsrm.glsl"
 #include "parity/rsrm_helpers.glsl"
@@ -114,6 +121,7 @@ std::vector<Evaluation> evaluations() {
     addHost<Host4>(rows);
     addHost<Host5>(rows);
     addHost<Host6>(rows);
+    addHost<Host7>(rows);
 #define PARITY_ROW(function, file, cases, tolerance, ...)                                          \
     rows.push_back([](const GlslCase& p) { return RsrmHost().row_##function(p); });
 #include "parity/rsrm_rows.inc"

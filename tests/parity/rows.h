@@ -17,7 +17,7 @@ namespace lodestar::testing {
 /// One error bound a channel.
 using Tolerance = std::array<double, 4>;
 
-inline constexpr int kSpecularVariants = 7;
+inline constexpr int kSpecularVariants = 8;
 
 struct ParityRow {
     std::string function;

@@ -97,10 +97,10 @@ Tolerance specularRingTolerance(const GlslCase& p, const glm::dvec4&, int) {
 }
 
 Tolerance specularOfTentsTolerance(const GlslCase& p, const glm::dvec4& v, int specular) {
-    return specular > 3 ? meanOfTaps(p, specular == 4   ? 3
-                                        : specular == 5 ? 7
-                                                        : 16)
-                        : specularTentTolerance(p, v, specular);
+    return specular > 3 && specular < 7 ? meanOfTaps(p, specular == 4   ? 3
+                                                        : specular == 5 ? 7
+                                                                        : 16)
+                                        : specularTentTolerance(p, v, specular);
 }
 
 Tolerance specularTapsTolerance(const GlslCase& p, const glm::dvec4&, int) {

@@ -10,6 +10,7 @@
 #include "lodestar/cube.glsl"
 #include "lodestar/lobes.glsl"
 
+#include "parity/prefiltered_tolerances.h"
 #include "parity/tap_tolerances.h"
 
 namespace lodestar::testing {
@@ -376,6 +377,13 @@ Tolerance specularTolerance(const GlslCase& p, const glm::dvec4&, int specular) 
     }
     if (specular == 2) {
         return {10.0 * u, 10.0 * u, footprint, 0.0};
+    }
+    if (specular == 7) {
+        // The lookup as below: direction by 67 u, exponent by 23 u of itself.
+        const double nDotV = std::clamp(glm::dot(n, view), 0.0, 1.0);
+        const double level = prefilteredLevelError(shader_double::lodestar_lookupExponent(s, nDotV),
+                                                   width, static_cast<double>(p[0].y), 23.0 * u);
+        return {90.0 * u, 70.0 * u, std::max(level, footprint), 0.0};
     }
     if (specular > 3) {
         // The lookup's direction is off by 67 u, its exponent by 23 u of itself (see below).

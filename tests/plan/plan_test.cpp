@@ -59,7 +59,7 @@ TEST(Plan, OneTableOfSurfacesAndParts) {
         const char* name;
         bool diffuse, glossy, visible, backdrop;
         EstimatorKind specular, lambert;
-        lighting::PreparedParts parts; // box, tent, sh9, irradiance
+        lighting::PreparedParts parts; // box, tent, sh9, irradiance, prefiltered
     };
     const Case cases[] = {
         {"matte",
@@ -119,6 +119,14 @@ TEST(Plan, OneTableOfSurfacesAndParts) {
          EstimatorKind::Ring7,
          EstimatorKind::Irradiance,
          {false, true, false, true}},
+        {"prefiltered",
+         true,
+         true,
+         true,
+         true,
+         EstimatorKind::Prefiltered,
+         EstimatorKind::Sh9,
+         {false, false, true, false, true}},
         {"taps",
          false,
          true,
