@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/bake_lights.h"
 #include "app/bake_source.h"
 #include "app/command.h"
 #include "app/commands.h"
@@ -34,6 +35,7 @@ struct BakeOptions {
     std::string encoding = "float";
     std::string layout = "rsrm";
     bool errors = false;
+    bool keepSun = false;
 };
 
 core::Result<lighting::RsrmLayout> parseLayout(const BakeOptions& options) {
@@ -147,9 +149,31 @@ nlohmann::ordered_json describe(const BakeOptions& options, const BakeSource& so
     return json;
 }
 
-int runBake(const BakeOptions& options) {
+/// Words that say how a map is filtered, where none is.
+const char* kMapOptions[] = {"--light",   "--hour",     "--kind",   "--exponents",
+                             "--columns", "--encoding", "--layout", "--errors"};
+
+int runBakeLights(const BakeOptions& options, const CLI::App& command) {
+    for (const char* option : kMapOptions) {
+        if (command.count(option) > 0) {
+            return fail(
+                usage("is for maps; a document of lights takes --axis and --keep-sun", option));
+        }
+    }
+    return bakeLights(
+        {options.source.source, options.output, options.source.axis, options.keepSun});
+}
+
+int runBake(const BakeOptions& options, const CLI::App& command) {
+    if (std::filesystem::path(options.output).extension() == ".json") {
+        return runBakeLights(options, command);
+    }
     if (std::filesystem::path(options.output).extension() != ".exr") {
-        return fail(usage("a map is written as .exr, by the name's ending", "--output"));
+        return fail(usage("a map is written as .exr and lights as .json, by the name's ending",
+                          "--output"));
+    }
+    if (options.keepSun) {
+        return fail(usage("is for lights, written as .json", "--keep-sun"));
     }
     auto layout = parseLayout(options);
     if (!layout) {
@@ -197,10 +221,13 @@ void addBake(CLI::App& app, int& status) {
     auto options = std::make_shared<BakeOptions>();
     CLI::App* command = app.add_subcommand(
         "bake", "Filter a painted sky or sun for a list of exponents into an EXR: a row each, as "
-                "decoded linear radiance.\n\n"
-                "Examples: the sun of a document at dusk; how symmetric a photographed sky is\n"
+                "decoded linear radiance; or make lights that can be painted of a photographed "
+                "sky.\n\n"
+                "Examples: the sun of a document at dusk; how symmetric a photographed sky is; its "
+                "sky and sun\n"
                 "  lodestar bake dusk.lodestar.json --light sun --hour 19.5 -o sun.exr\n"
                 "  lodestar bake park.hdr --exponents 1,64,1024 -o park.exr\n"
+                "  lodestar bake park.hdr -o park.lodestar.json\n"
                 "answers JSON: rows, columns, bytes, peaks, warnings; \"residual\" of a panorama "
                 "is the share of "
                 "its light that is not symmetric about the axis.");
@@ -210,7 +237,11 @@ void addBake(CLI::App& app, int& status) {
                      "A lighting document (.json); a picture of one row or column, painted from "
                      "the axis (a sky's zenith) outwards at equal angles; or a panorama")
         ->required();
-    command->add_option("-o,--output", options->output, "The map, .exr")->required();
+    command
+        ->add_option(
+            "-o,--output", options->output,
+            "The map, .exr; or a panorama's lights, .json: a sky and, where one is found, its sun")
+        ->required();
     command->add_option("--light", source.light,
                         "The document's light, by name or number (default: the first)");
     command->add_option("--hour", source.hour, "Hour of its day, [0, 24) (default 15)");
@@ -233,7 +264,9 @@ void addBake(CLI::App& app, int& status) {
     command->add_flag("--errors", options->errors,
                       "Also answer each row's worst error over its peak, against sums in double "
                       "precision at a tenth of the columns (a second or two)");
-    command->callback([options, &status] { status = runBake(*options); });
+    command->add_flag("--keep-sun", options->keepSun,
+                      "With .json: leave a sun in the sky's mean instead of taking it out");
+    command->callback([options, command, &status] { status = runBake(*options, *command); });
 }
 
 } // namespace lodestar::app

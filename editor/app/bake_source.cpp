@@ -6,8 +6,6 @@
 #include <filesystem>
 #include <vector>
 
-#include <glm/geometric.hpp>
-
 #include "app/command.h"
 #include "io/document_file.h"
 #include "io/environment_file.h"
@@ -129,15 +127,11 @@ core::Result<BakeSource> fromPicture(const BakeSourceOptions& options, const Zon
                                           "(twice as wide as high)"),
                             options.source);
     }
-    const auto axis = parseVector(options.axis.empty() ? "0,1,0" : options.axis, "--axis");
+    const auto axis = parseAxis(options.axis.empty() ? "0,1,0" : options.axis, "--axis");
     if (!axis) {
         return axis.error();
     }
-    const double length = glm::length(*axis);
-    if (!(length > 1e-12) || !std::isfinite(length)) {
-        return usage("an axis has a length", "--axis");
-    }
-    auto zonal = lighting::zonalFromPanorama(*image, *axis / length, zones);
+    auto zonal = lighting::zonalFromPanorama(*image, *axis, zones);
     return BakeSource{"panorama", kind, std::move(zonal.radiance), zonal.residual};
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/command.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -94,6 +96,18 @@ core::Result<double> parseExponent(std::string_view text, const std::string& opt
                      option);
     }
     return *value;
+}
+
+core::Result<glm::dvec3> parseAxis(std::string_view text, const std::string& option) {
+    const auto axis = parseVector(text, option);
+    if (!axis) {
+        return axis.error();
+    }
+    const double length = glm::length(*axis);
+    if (!(length > 1e-12) || !std::isfinite(length)) {
+        return usage("an axis has a length", option);
+    }
+    return *axis / length;
 }
 
 core::Result<std::vector<double>> parseExponents(std::string_view text, const std::string& option) {

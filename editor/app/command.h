@@ -35,6 +35,9 @@ parseNumbers(std::string_view text, std::size_t count, const std::string& option
 [[nodiscard]] core::Result<glm::dvec3> parseVector(std::string_view text,
                                                    const std::string& option);
 
+/// The same as a unit vector. @errors Usage naming the option if it has no length
+[[nodiscard]] core::Result<glm::dvec3> parseAxis(std::string_view text, const std::string& option);
+
 /// "a,b,c" as exponents of finite lobes, [0, 1e7], in their order. @errors Usage naming the option
 [[nodiscard]] core::Result<std::vector<double>> parseExponents(std::string_view text,
                                                                const std::string& option);

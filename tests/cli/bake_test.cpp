@@ -369,5 +369,46 @@ TEST(Bake, BadCallsSayOneLineAndTheirStatus) {
     }
 }
 
+TEST(Bake, APanoramaBecomesLightsThatCanBePainted) {
+    const TemporaryFolder folder;
+    core::Image panorama(64, 32, 3);
+    std::fill(panorama.pixels().begin(), panorama.pixels().end(), 0.5f);
+    for (int x = 0; x < 3; ++x) { // a sun of a texel, 45 degrees high
+        panorama.at(40, 8)[x] = 800.0f;
+    }
+    const std::string picture = folder.file("park.exr");
+    ASSERT_TRUE(io::writeImage(picture, panorama).ok());
+    const std::string out = folder.file("park.lodestar.json");
+    const RunResult run = runLodestar({"bake", picture, "-o", out});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const json answer = json::parse(run.out);
+    EXPECT_EQ(answer["source"], "panorama");
+    EXPECT_NEAR(answer["sun"]["elevation"].get<double>(), 90.0 - 8.5 / 32.0 * 180.0, 0.1);
+    // 799.5 over (2 pi / 64) (cos 45 - cos 50.625 degrees).
+    EXPECT_NEAR(
+        answer["sun"]["irradiance"][1].get<double>(),
+        799.5 * 2.0 * std::numbers::pi / 64.0 *
+            (std::cos(std::numbers::pi / 4.0) - std::cos(50.625 * std::numbers::pi / 180.0)),
+        0.02);
+    EXPECT_LT(answer["residual"].get<double>(), 1e-3);
+    EXPECT_LT(answer["diffuse_error"].get<double>(), 0.02);
+    // The document is whole, and lights.
+    const RunResult lit = runLodestar(
+        {"sample", "--lighting", out, "--hour", "9", "--lobe", "lambert", "--direction", "0,-1,0"});
+    ASSERT_EQ(lit.status, 0) << lit.err;
+    EXPECT_NEAR(json::parse(lit.out)["radiance"][1].get<double>(), 0.5, 0.01);
+
+    // What is there is not lost.
+    EXPECT_EQ(runLodestar({"bake", picture, "-o", out}).status, 5);
+    EXPECT_EQ(runLodestar({"bake", picture, "-o", folder.file("b.json"), "--hour", "9"}).status, 2);
+    EXPECT_EQ(runLodestar({"bake", picture, "-o", folder.file("b.exr"), "--keep-sun"}).status, 2);
+    EXPECT_EQ(
+        runLodestar({"bake", constantStrip(folder, 1.0f), "-o", folder.file("c.json")}).status, 3);
+    const RunResult kept =
+        runLodestar({"bake", picture, "-o", folder.file("kept.json"), "--keep-sun"});
+    ASSERT_EQ(kept.status, 0) << kept.err;
+    EXPECT_TRUE(json::parse(kept.out)["sun"].is_null());
+}
+
 } // namespace
 } // namespace lodestar::testing
