@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
+
 #include "core/contract.h"
 #include "core/parallel.h"
 #include "lighting/accuracy.h"
+#include "lighting/lobe_sums.h"
 #include "lighting/lookup.h"
+#include "lighting/mips.h"
 
 namespace lodestar::lighting {
 namespace {
@@ -17,11 +21,12 @@ constexpr Estimator kLadder[] = {{EstimatorKind::Tent},
                                  {EstimatorKind::Ring7},
                                  {EstimatorKind::Taps, 0.0f, 32},
                                  {EstimatorKind::Taps, 0.0f, 64}};
-constexpr int kDirections = 384;
-/// 384 directions leave so much open.
+constexpr int kDirections = 768;
+/// What directions and exponents in between leave open.
 constexpr double kMargin = 1.3;
-/// Of a lobe's variance, that truths may be wider: 0.15 % of its width.
-constexpr double kAddedVariance = 3e-3;
+/// Of a lobe's variance, that means of texels may add to it before it is taken off again.
+constexpr double kAddedVariance = 6e-3;
+constexpr int kNarrowestSource = 16;
 /// Places are exponents s with log2(s + 1) = 1.5 k; the last is beyond what a texel resolves.
 constexpr double kOctaves = 1.5;
 constexpr int kPlaces = 12;
@@ -36,6 +41,62 @@ double placeOf(double exponent) {
     return std::min(std::log2(repaired + 1.0) / kOctaves, kPlaces - 1.0);
 }
 
+/// Means over lobes, fast: over the coarsest means of texels that add the share above at most;
+/// sharp lobes, which reach few texels, by the reference.
+class Truths {
+public:
+    explicit Truths(const Cubemap& base) : base_(base), chain_(solidAngleMips(base)) {
+        for (int level = 0; level < chain_.levelCount(); ++level) {
+            if (level == 0 || chain_.width(level) >= kNarrowestSource) {
+                sources_.push_back(lobeSource(chain_, level));
+            }
+        }
+    }
+
+    [[nodiscard]] std::vector<glm::dvec3> at(const std::vector<MeasuredDirection>& directions,
+                                             double exponent) const {
+        const LobeSource* source = sourceFor(exponent);
+        std::vector<glm::dvec3> truths;
+        std::vector<float> scratch;
+        for (const MeasuredDirection& measured : directions) {
+            truths.push_back(
+                source != nullptr
+                    ? glm::dvec3(lobeMean(*source, measured.direction,
+                                          narrowed(exponent, source->width, measured.direction),
+                                          scratch))
+                    : referencePhong(base_, measured.direction, exponent));
+        }
+        return truths;
+    }
+
+private:
+    [[nodiscard]] const LobeSource* sourceFor(double exponent) const {
+        const LobeSource* coarsest = nullptr;
+        for (const LobeSource& source : sources_) {
+            const double squared = static_cast<double>(source.width) * source.width;
+            const bool resolves = exponent + 1.0 <= 3.0 / 16.0 * squared;
+            const bool fine = exponent / (3.0 * squared) <= kAddedVariance;
+            if (resolves && (fine || &source == sources_.data())) {
+                coarsest = &source;
+            }
+        }
+        return coarsest;
+    }
+
+    /// Spreads add (PRE-2): a twelfth of a texel's solid angle there, less what the map's own do.
+    [[nodiscard]] double narrowed(double exponent, int width, const glm::dvec3& direction) const {
+        const glm::dvec3 a = glm::abs(direction);
+        const double density = std::pow(std::max({a.x, a.y, a.z}), 3.0);
+        const auto area = [](int n) { return 4.0 / (static_cast<double>(n) * n); };
+        const double added = density * (area(width) - area(base_.width())) / 12.0;
+        return std::max(1.0 / (1.0 / (exponent + 2.0) - added) - 2.0, 0.0);
+    }
+
+    const Cubemap& base_;
+    Cubemap chain_;
+    std::vector<LobeSource> sources_; ///< the finest first
+};
+
 } // namespace
 
 std::span<const Estimator> autoLadder() {
@@ -47,7 +108,7 @@ ErrorForecast::ErrorForecast(const Cubemap& base, const Cubemap& tentMips) {
     PreparedEnvironment environment;
     environment.tentMips = tentMips;
     const std::vector<MeasuredDirection> directions = measuredDirections(base, kDirections);
-    const LobeMeans means(base, kAddedVariance);
+    const Truths means(base);
     const std::size_t rungs = std::size(kLadder);
     errors_.assign(rungs, std::vector<double>(kPlaces));
     core::inParallel(kPlaces, [&](std::size_t place) {
@@ -61,10 +122,7 @@ ErrorForecast::ErrorForecast(const Cubemap& base, const Cubemap& tentMips) {
             }
             return all;
         };
-        std::vector<glm::dvec3> truths;
-        for (const MeasuredDirection& measured : directions) {
-            truths.push_back(means(measured.direction, exponent));
-        }
+        const std::vector<glm::dvec3> truths = means.at(directions, exponent);
         for (std::size_t rung = 0; rung < rungs; ++rung) {
             errors_[rung][place] =
                 kMargin * accuracyOf(directions, truths, answers(kLadder[rung])).rmse;

@@ -19,7 +19,7 @@ namespace lodestar::lighting {
 class ErrorForecast {
 public:
     ErrorForecast() = default;
-    /// Measures each rung at 384 directions, half spread evenly, half at what is bright, against
+    /// Measures each rung at 768 directions, half spread evenly, half at what is bright, against
     /// sums over the map; on all processors. The figure is 1.3 times the relative RMSE found
     /// (docs/estimators.md says how well it foresees).
     /// @param base level 0  @param tentMips its full chain

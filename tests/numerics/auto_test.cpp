@@ -66,9 +66,8 @@ void count(const ErrorForecast& forecast, const std::vector<double>& errors, dou
 
 } // namespace
 
-// The aims were .95 within 1.5 of the tolerance and .80 at most one rung dearer than the cheapest
-// that meets it. A greater margin reaches the first and loses the second; docs/estimators.md has
-// both.
+// Of the choices .95 are within 1.5 of the tolerance, and .80 of the pairs are served by the
+// cheapest rung that meets it or the next; docs/estimators.md has both.
 TEST(Auto, ForeseesPanoramasItWasNotTunedOn) {
     if (!std::filesystem::exists(panoramaPath("city"))) {
         GTEST_SKIP() << "needs the panoramas of blender-data, which this machine lacks";
@@ -100,7 +99,7 @@ TEST(Auto, ForeseesPanoramasItWasNotTunedOn) {
     std::printf("within 1.5 of the tolerance: %d of %d; at most one rung dearer: %d of %d\n",
                 score.right, score.chosen, score.cheap, score.possible);
     EXPECT_GT(score.chosen, 150);
-    EXPECT_GE(score.right, 0.92 * score.chosen);
+    EXPECT_GE(score.right, 0.95 * score.chosen);
     EXPECT_GE(score.cheap, 0.80 * score.possible);
 }
 
