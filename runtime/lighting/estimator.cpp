@@ -96,7 +96,7 @@ core::Result<Estimator> parseTaps(std::string_view name, Term term) {
         estimator.taps > kMostTaps) {
         return core::Error{core::ErrorCode::Usage,
                            "\"" + std::string(name) +
-                               "\" needs a number of taps from 4 to 1024 after \"taps:\"",
+                               "\" needs a number of taps from 1 to 1024 after \"taps:\"",
                            {},
                            {}};
     }

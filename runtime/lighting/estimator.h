@@ -31,9 +31,8 @@ enum class EstimatorKind {
 
 enum class Term { Glossy, Diffuse };
 
-/// How many taps a spiral may have: with fewer than four its middle lies beside the lobe's axis,
-/// and beyond the most a frame would take seconds.
-inline constexpr int kLeastTaps = 4;
+/// How many taps there may be: beyond the most a frame would take seconds.
+inline constexpr int kLeastTaps = 1;
 inline constexpr int kMostTaps = 1024;
 
 /// The coarsest tolerance of `auto`.

@@ -8,7 +8,7 @@
 //
 // Feature macros (defaults in shaders/README.md):
 //   LODESTAR_SPECULAR  which estimator the glossy term uses, one of LODESTAR_SPECULAR_*
-//   LODESTAR_TAPS      LODESTAR_SPECULAR_TAPS only: how many taps, 4 to 1024
+//   LODESTAR_TAPS      LODESTAR_SPECULAR_TAPS only: how many taps, 1 to 1024
 //
 // A C++ host includes this file inside its class, after defining LODESTAR_HOST_CLASS, and its
 // member functions are the hooks: no global state, and the whole evaluation runs on the CPU.
@@ -139,14 +139,15 @@ LODESTAR_FN vec3 lodestar_specularTap(LodestarCube cube, vec4 tap, Real footprin
 }
 
 /// A ring of taps on tent mips for a Phong lobe about a direction.
-/// @param direction unit  @param count 3, or 7: six about the direction and the direction itself
+/// @param direction unit  @param count 2, 3, or 7: six about the direction and the direction itself
 LODESTAR_FN vec3 lodestar_specularRing(LodestarCube cube, vec3 direction, Real exponent, Real footprint,
                                        int count) {
     LodestarTaps taps = lodestar_ring(count);
     Real s = lodestar_repairExponent(exponent);
     vec3 tangent = lodestar_tangent(direction);
-    int around = count == 7 ? 6 : 3;
-    vec2 angle = vec2(count == 7 ? 0.5f : -0.5f, LODESTAR_LITERAL(0.86602540378443865));
+    int around = count == 7 ? 6 : count;
+    vec2 angle = count == 2 ? vec2(-1.0f, 0.0f)
+                            : vec2(count == 7 ? 0.5f : -0.5f, LODESTAR_LITERAL(0.86602540378443865));
     vec2 turn = vec2(1.0f, 0.0f);
     vec3 sum = vec3(0.0f);
     for (int i = 0; i < around; ++i) {
@@ -163,10 +164,15 @@ LODESTAR_FN vec3 lodestar_specularRing(LodestarCube cube, vec3 direction, Real e
 }
 
 /// A spiral of taps on tent mips for a Phong lobe about a direction: importance sampling, each sample
-/// filtered over its share.
-/// @param direction unit  @param count >= 4
+/// filtered over its share. Fewer than four, whose middle would lie beside the axis, are a ring or the
+/// axis itself.
+/// @param direction unit  @param count >= 1
 LODESTAR_FN vec3 lodestar_specularTaps(LodestarCube cube, vec3 direction, Real exponent, Real footprint,
                                        int count) {
+    if (count < 4) {
+        return count > 1 ? lodestar_specularRing(cube, direction, exponent, footprint, count)
+                         : lodestar_specularTent(cube, direction, exponent, footprint);
+    }
     LodestarTaps taps = lodestar_spiral(Real(count));
     Real s = lodestar_repairExponent(exponent);
     vec3 tangent = lodestar_tangent(direction);

@@ -53,11 +53,11 @@ LODESTAR_FN vec4 lodestar_lobeTap(vec3 d, vec3 tangent, vec2 turn, Real exponent
 
 /// A ring about the lobe's axis, each tap with logShare -1; of 7 the first is the axis itself, with
 /// logShare 0 (TAP-4). Fitted on the ladder's first set.
-/// @param count 3 or 7
+/// @param count 2, 3 or 7
 LODESTAR_FN LodestarTaps lodestar_ring(int count) {
     LodestarTaps taps;
-    taps.reach = count == 3 ? LODESTAR_LITERAL(2.7) : Real(1.5f);
-    taps.narrow = count == 3 ? LODESTAR_LITERAL(1.55) : LODESTAR_LITERAL(2.1);
+    taps.reach = count == 7 ? Real(1.5f) : (count == 3 ? LODESTAR_LITERAL(2.7) : Real(7.0f));
+    taps.narrow = count == 7 ? LODESTAR_LITERAL(2.1) : (count == 3 ? LODESTAR_LITERAL(1.55) : LODESTAR_LITERAL(1.2));
     taps.widening = 0.0f;
     return taps;
 }

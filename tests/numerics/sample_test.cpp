@@ -136,7 +136,7 @@ TEST(Sample, RefusesWithTheRightStatus) {
     Sampler sampler;
     const std::string start = R"({"environment":"constant:1,1,1","exponent":4,"direction":[0,1,0])";
     for (const char* end : {R"(,"lobe":"cone"})",
-                            R"(,"estimator":"taps:3"})",
+                            R"(,"estimator":"taps:0"})",
                             R"(,"estimator":"bias:-1"})",
                             R"(,"estimator":"bias:nan"})",
                             R"(,"estimator":"sh9"})",

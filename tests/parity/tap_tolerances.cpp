@@ -93,7 +93,7 @@ Tolerance meanOfTaps(const GlslCase& p, int count) {
 } // namespace
 
 Tolerance specularRingTolerance(const GlslCase& p, const glm::dvec4&, int) {
-    return meanOfTaps(p, p[0].y > 6.0f ? 7 : 3);
+    return meanOfTaps(p, p[0].y > 6.0f ? 7 : (p[0].y > 5.0f ? 2 : 3));
 }
 
 Tolerance specularOfTentsTolerance(const GlslCase& p, const glm::dvec4& v, int specular) {
