@@ -34,11 +34,13 @@ struct Environment {
     double rotation = 0.0; ///< radians about +Y, counter-clockwise seen from above
     double ev = 0.0;       ///< radiance x 2^ev, [-64, 64]
     Unknown unknown;
+    bool operator==(const Environment&) const = default;
 };
 
 struct Stop {
     lighting::GradientStop stop;
     Unknown unknown;
+    bool operator==(const Stop&) const = default;
 };
 
 struct Gradient {
@@ -46,6 +48,7 @@ struct Gradient {
     lighting::GradientInterpolation interpolation = lighting::GradientInterpolation::Linear;
     lighting::GradientSpace space = lighting::GradientSpace::Linear;
     Unknown unknown;
+    bool operator==(const Gradient&) const = default;
 };
 
 struct Key {
@@ -54,6 +57,7 @@ struct Key {
     glm::dvec3 tint{1.0};
     std::optional<glm::dvec3> axis;
     Unknown unknown;
+    bool operator==(const Key&) const = default;
 };
 
 struct Light {
@@ -66,6 +70,7 @@ struct Light {
     bool add = false;
     Unknown unknown;
     Unknown pathUnknown; ///< of the path
+    bool operator==(const Light&) const = default;
 };
 
 /// What a material is given in place of what its file says.
@@ -75,12 +80,14 @@ struct Material {
     std::optional<std::string> specular;   ///< estimator
     std::optional<double> tolerance;       ///< relative error, > 0
     Unknown unknown;
+    bool operator==(const Material&) const = default;
 };
 
 /// A light probe, and what of its objects no version knows.
 struct Probe {
     lighting::Probe probe;
     Unknown unknown, captureUnknown, updateUnknown, influenceUnknown, proxyUnknown;
+    bool operator==(const Probe&) const = default;
 };
 
 struct Document {
@@ -89,6 +96,7 @@ struct Document {
     std::vector<Probe> probes;
     std::map<std::string, Material> materials; ///< by glTF name or "#index"
     Unknown unknown;
+    bool operator==(const Document&) const = default;
 };
 
 /// Reads a document. What lighting::repaired mends is counted; `dayLights` mends it.

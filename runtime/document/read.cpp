@@ -221,7 +221,7 @@ Document readDocument(const Reader& reader) {
     }
     if (const auto materials = reader.member("materials"); materials && materials->isObject()) {
         for (const auto& [name, value] : materials->json().items()) {
-            document.materials[name] = readMaterial(*materials->member(name.c_str()));
+            document.materials[name] = readMaterial(*materials->member(name));
         }
     }
     document.unknown = reader.unknown({"lodestar", "environment", "lights", "probes", "materials"});

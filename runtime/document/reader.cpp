@@ -95,7 +95,7 @@ bool Reader::isObject() const {
     return value_.is_object();
 }
 
-std::optional<Reader> Reader::member(const char* name) const {
+std::optional<Reader> Reader::member(const std::string& name) const {
     if (!value_.is_object()) {
         return std::nullopt;
     }

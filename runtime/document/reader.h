@@ -56,7 +56,7 @@ public:
     /// Whether this is an object; refused if not.
     [[nodiscard]] bool isObject() const;
     /// A member, if there is one.
-    [[nodiscard]] std::optional<Reader> member(const char* name) const;
+    [[nodiscard]] std::optional<Reader> member(const std::string& name) const;
     /// A member that must be there: refused if it is not.
     [[nodiscard]] std::optional<Reader> needed(const char* name) const;
     /// The elements of an array; refused if this is none.

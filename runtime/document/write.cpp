@@ -2,7 +2,9 @@
 //
 // Values to text.
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <limits>
 
 #include <glm/trigonometric.hpp>
 
@@ -21,11 +23,32 @@ double finite(double value) {
     return std::isfinite(value) ? value : 0.0;
 }
 
-/// The degrees of an angle: the whole number that it was read from, where it is one.
+/// The degrees of an angle: the shortest decimal that is read as the same radians, so that what was
+/// read is written again.
 double degrees(double radians) {
     const double value = finite(glm::degrees(radians));
-    const double whole = std::round(value);
-    return glm::radians(whole) == radians ? whole : value;
+    constexpr int kEnough = std::numeric_limits<double>::max_digits10;
+    for (int digits = 1; digits <= kEnough; ++digits) {
+        std::array<char, 40> text{};
+        const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                       std::chars_format::general, digits);
+        double shorter = 0.0;
+        std::from_chars(text.data(), end.ptr, shorter);
+        if (glm::radians(shorter) == radians) {
+            return shorter;
+        }
+    }
+    // Rounding has moved it by a few units in the last place.
+    for (double near = value, far = value, i = 0; i < 4; ++i) {
+        near = std::nextafter(near, 0.0);
+        far = std::nextafter(far, 2.0 * value);
+        for (const double each : {near, far}) {
+            if (glm::radians(each) == radians) {
+                return each;
+            }
+        }
+    }
+    return value;
 }
 
 Json toJson(const glm::dvec3& v) {

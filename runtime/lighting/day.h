@@ -48,6 +48,7 @@ struct SunPath {
     double latitude = 0.0;            ///< radians [-pi/2, pi/2], north positive
     int dayOfYear = 81;               ///< [1, 366]
     glm::dvec3 north{0.0, 0.0, -1.0}; ///< unit, across +Y
+    bool operator==(const SunPath&) const = default;
 };
 
 /// Direction towards the sun at an hour of local solar time: highest at 12, due east of the

@@ -34,6 +34,7 @@ struct GradientStop {
     double at = 0.0;       ///< degrees: elevation [-90, 90] for a sky, angle [0, 180] for a sun
     glm::dvec3 color{0.0}; ///< linear Rec. 709
     double ev = 0.0;       ///< radiance is color x 2^ev, [0, 1e9]
+    bool operator==(const GradientStop&) const = default;
 };
 
 struct Gradient {

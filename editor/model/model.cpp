@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#include "model/model.h"
+
+#include <utility>
+
+namespace lodestar::model {
+
+Model::Model(document::Document document) : state_(named(std::move(document))) {}
+
+const document::Light* Model::light(Id id) const {
+    const auto place = findLight(state_.ids, id);
+    return place ? &state_.document.lights[*place] : nullptr;
+}
+
+const document::Key* Model::key(Id id) const {
+    const auto place = findKey(state_.ids, id);
+    return place ? &state_.document.lights[place->light].keys[place->key] : nullptr;
+}
+
+const document::Stop* Model::stop(Id id) const {
+    const auto place = findStop(state_.ids, id);
+    return place
+               ? &state_.document.lights[place->light].keys[place->key].gradient.stops[place->stop]
+               : nullptr;
+}
+
+const document::Probe* Model::probe(Id id) const {
+    const auto place = findProbe(state_.ids, id);
+    return place ? &state_.document.probes[*place] : nullptr;
+}
+
+Id Model::lightOf(Id key) const {
+    const auto place = findKey(state_.ids, key);
+    return place ? state_.ids.lights[place->light].id : Id::None;
+}
+
+Id Model::keyOf(Id stop) const {
+    const auto place = findStop(state_.ids, stop);
+    return place ? state_.ids.lights[place->light].keys[place->key].id : Id::None;
+}
+
+core::Result<Outcome> Model::execute(const Command& command, MergeToken token) {
+    const bool joins = token != 0 && token == openToken_;
+    Part* const last = joins ? &steps_[done_ - 1].parts.back() : nullptr;
+    const bool replaces = last != nullptr && last->type == command.index();
+    State base = state_;
+    if (replaces) {
+        model::apply(last->change, Direction::Back, base);
+    }
+    State next = base;
+    auto created = perform(command, next);
+    if (!created) {
+        return created.error();
+    }
+    Change change = difference(base, next);
+    if (replaces) {
+        apply(last->change, Direction::Back);
+    }
+    const bool changed = !change.empty();
+    if (changed) {
+        apply(change, Direction::Forth);
+        if (replaces) {
+            steps_[done_ - 1].parts.pop_back();
+        }
+        keep(command.index(), nameOf(command), std::move(change), joins);
+        openToken_ = token;
+    } else if (replaces) {
+        dropLastPart();
+    }
+    selection_ = valid(std::move(selection_), state_.ids);
+    if (changed) {
+        selectCreated(*created);
+    }
+    return Outcome{changed, changed ? std::move(*created) : std::vector<Id>()};
+}
+
+void Model::keep(std::size_t type, std::string_view name, Change change, bool joins) {
+    steps_.resize(done_); // what was undone is gone
+    if (!joins) {
+        steps_.push_back({name, {}, stamp_, 0});
+        ++done_;
+    }
+    stamp_ = ++lastStamp_;
+    steps_[done_ - 1].after = stamp_;
+    steps_[done_ - 1].parts.push_back({type, std::move(change)});
+}
+
+void Model::dropLastPart() {
+    Step& step = steps_[done_ - 1];
+    step.parts.pop_back();
+    if (step.parts.empty()) {
+        // A drag that is back where it began is no step, and the one below is not its own.
+        stamp_ = step.before;
+        steps_.pop_back();
+        --done_;
+        openToken_ = 0;
+    } else {
+        stamp_ = step.after = ++lastStamp_;
+    }
+}
+
+bool Model::undo() {
+    openToken_ = 0;
+    if (done_ == 0) {
+        return false;
+    }
+    const Step& step = steps_[--done_];
+    for (auto part = step.parts.rbegin(); part != step.parts.rend(); ++part) {
+        apply(part->change, Direction::Back);
+    }
+    stamp_ = step.before;
+    selection_ = valid(std::move(selection_), state_.ids);
+    return true;
+}
+
+bool Model::redo() {
+    openToken_ = 0;
+    if (done_ == steps_.size()) {
+        return false;
+    }
+    const Step& step = steps_[done_++];
+    for (const Part& part : step.parts) {
+        apply(part.change, Direction::Forth);
+    }
+    stamp_ = step.after;
+    selection_ = valid(std::move(selection_), state_.ids);
+    return true;
+}
+
+std::string_view Model::undoName() const {
+    return done_ == 0 ? std::string_view() : steps_[done_ - 1].name;
+}
+
+std::string_view Model::redoName() const {
+    return done_ == steps_.size() ? std::string_view() : steps_[done_].name;
+}
+
+std::size_t Model::historyBytes() const {
+    std::size_t sum = steps_.capacity() * sizeof(Step);
+    for (const Step& step : steps_) {
+        for (const Part& part : step.parts) {
+            sum += part.change.bytes();
+        }
+    }
+    return sum;
+}
+
+void Model::markSaved() {
+    savedStamp_ = stamp_;
+    openToken_ = 0;
+}
+
+std::uint64_t Model::revisionOf(Id id) const {
+    const auto found = partRevisions_.find(id);
+    return found == partRevisions_.end() ? 0 : found->second;
+}
+
+void Model::select(Selection selection) {
+    selection_ = valid(std::move(selection), state_.ids);
+}
+
+void Model::apply(const Change& change, Direction direction) {
+    model::apply(change, direction, state_);
+    note(change);
+}
+
+void Model::note(const Change& change) {
+    const std::uint64_t now = ++revisions_.document;
+    const auto noteKey = [&](const KeyIds& key) { partRevisions_[key.id] = now; };
+    const auto noteLight = [&](const LightIds& light) {
+        partRevisions_[light.id] = now;
+        for (const KeyIds& key : light.keys) {
+            noteKey(key);
+        }
+    };
+    const auto both = [](const auto& splice, auto&& visit) {
+        for (const auto& names : splice.namesBefore) {
+            visit(names);
+        }
+        for (const auto& names : splice.namesAfter) {
+            visit(names);
+        }
+    };
+    both(change.probes, [&](Id id) { partRevisions_[id] = now; });
+    both(change.lights, noteLight);
+    for (const LightChange& each : change.inLights) {
+        partRevisions_[state_.ids.lights[each.light].id] = now;
+        both(each.keys, noteKey);
+    }
+    for (const KeyChange& each : change.inKeys) {
+        partRevisions_[state_.ids.lights[each.light].id] = now;
+        noteKey(state_.ids.lights[each.light].keys[each.key]);
+    }
+    const auto noteList = [now](std::uint64_t& revision, bool changed) {
+        revision = changed ? now : revision;
+    };
+    noteList(revisions_.environment, change.environment.has_value());
+    noteList(revisions_.materials, !change.materials.empty());
+    noteList(revisions_.probes, !change.probes.empty());
+    noteList(revisions_.lights,
+             !change.lights.empty() || !change.inLights.empty() || !change.inKeys.empty());
+}
+
+void Model::selectCreated(const std::vector<Id>& created) {
+    if (created.empty()) {
+        return;
+    }
+    Selection selection = selection_;
+    if (findStop(state_.ids, created.front())) {
+        selection.stops = created;
+    } else if (findKey(state_.ids, created.front())) {
+        selection.stops.clear();
+        selection.key = created.front();
+    } else if (findLight(state_.ids, created.front())) {
+        selection.stops.clear();
+        selection.key = Id::None;
+        selection.light = created.front();
+    } else {
+        selection.probes = created;
+    }
+    selection_ = valid(std::move(selection), state_.ids);
+}
+
+} // namespace lodestar::model
