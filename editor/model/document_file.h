@@ -4,7 +4,7 @@
 // it, and what others do to the file. Time is passed in; nothing here waits or runs by itself.
 //
 // A file is always written whole, to a temporary, and renamed (io/file.h): whenever the program
-// dies, what is on the disk is readable, and at most kAutosaveSeconds or kAutosaveSteps are lost.
+// dies, what is on the disk is readable, and at most kAutosaveSeconds or kAutosaveStrokes are lost.
 #pragma once
 
 #include <cstdint>
@@ -18,16 +18,17 @@
 
 namespace lodestar::model {
 
-/// The side file is written when the last one is this old, or behind by so many changes.
+/// The side file is written when the last one is this old, or behind by so many strokes.
 inline constexpr double kAutosaveSeconds = 5.0;
-inline constexpr std::uint64_t kAutosaveSteps = 20;
+inline constexpr std::uint64_t kAutosaveStrokes = 20;
 /// After a failure it is tried again this much later.
 inline constexpr double kAutosaveRetrySeconds = 30.0;
 
 /// The side file of a document: its path and ".autosave".
 [[nodiscard]] std::filesystem::path autosavePath(const std::filesystem::path& document);
 
-/// What others did to the file since it was read or written here.
+/// What others did to the file since it was read or written here. After the last two the document
+/// is nowhere else: Model::markUnsaved.
 enum class Outside { Nothing, Changed, Removed };
 
 class DocumentFile {
@@ -36,6 +37,7 @@ public:
     DocumentFile() = default;
 
     /// Reads a document. A file that is not there is an empty document, to be saved there.
+    /// Temporaries of programs that died while they wrote it are taken away.
     /// @param model gets the document, without steps and not dirty
     /// @errors InputRefused as io::loadDocument; the model stays
     [[nodiscard]] static core::Result<DocumentFile> open(const std::filesystem::path& path,
@@ -69,6 +71,9 @@ public:
     [[nodiscard]] core::Result<void> reload(Model& model, core::Tally& warnings);
 
 private:
+    /// The disk has the model as it is.
+    void noteKept(const Model& model);
+
     /// What tells that a file was touched.
     struct Stamp {
         bool exists = false;
@@ -81,7 +86,8 @@ private:
     std::filesystem::path path_;
     Stamp stamp_;                 ///< of the file as it was last looked at
     std::string text_;            ///< of the file as it was last read or written here
-    std::uint64_t autosaved_ = 0; ///< revision that the side file or the file has
+    std::uint64_t revision_ = 0;  ///< that the side file or the file has
+    std::uint64_t strokes_ = 0;   ///< at that revision
     std::optional<double> since_; ///< when the model was first seen ahead of it
     std::optional<double> retry_; ///< no earlier than this
 };

@@ -79,6 +79,7 @@ void Model::keep(std::size_t type, std::string_view name, Change change, bool jo
     if (!joins) {
         steps_.push_back({name, {}, stamp_, 0});
         ++done_;
+        ++strokes_;
     }
     stamp_ = ++lastStamp_;
     steps_[done_ - 1].after = stamp_;
@@ -105,6 +106,7 @@ bool Model::undo() {
         return false;
     }
     const Step& step = steps_[--done_];
+    ++strokes_;
     for (auto part = step.parts.rbegin(); part != step.parts.rend(); ++part) {
         apply(part->change, Direction::Back);
     }
@@ -119,6 +121,7 @@ bool Model::redo() {
         return false;
     }
     const Step& step = steps_[done_++];
+    ++strokes_;
     for (const Part& part : step.parts) {
         apply(part.change, Direction::Forth);
     }

@@ -72,6 +72,8 @@ public:
     [[nodiscard]] std::size_t undoCount() const { return done_; }
     /// Steps that redo can take.
     [[nodiscard]] std::size_t redoCount() const { return steps_.size() - done_; }
+    /// Steps made, undone and redone since the start: grows with what a user would call a stroke.
+    [[nodiscard]] std::uint64_t strokes() const { return strokes_; }
     /// Bytes that the steps keep, about.
     [[nodiscard]] std::size_t historyBytes() const;
 
@@ -114,6 +116,7 @@ private:
     State state_;
     std::vector<Step> steps_;
     std::size_t done_ = 0; ///< steps that are in the document
+    std::uint64_t strokes_ = 0;
     MergeToken openToken_ = 0, lastToken_ = 0;
     std::uint64_t stamp_ = 0, lastStamp_ = 0, savedStamp_ = 0;
     Revisions revisions_;
