@@ -182,7 +182,8 @@ Performed performOn(State& state, const ReverseStops& command) {
         return edit.error();
     }
     std::vector<document::Stop>& stops = edit->gradient.stops;
-    const auto [least, most] = std::minmax(stops.front().stop.at, stops.back().stop.at);
+    const double least = std::min(stops.front().stop.at, stops.back().stop.at);
+    const double most = std::max(stops.front().stop.at, stops.back().stop.at);
     for (document::Stop& stop : stops) {
         stop.stop.at = plain(std::clamp(least + most - stop.stop.at, least, most));
     }
