@@ -14,7 +14,7 @@ samples/demo.sh uses), and runs every kind of test but the benchmarks; then the 
 input again under the address and undefined-behaviour sanitizers, in build-asan/.
 
   --quick   label unit only, no sanitizers: the inner loop
-  --long    sanitizers over unit, numerics, parity and gl as well, ten times the fuzzing, clang-tidy;
+  --long    sanitizers over unit, numerics, parity and gl as well, ten times the fuzzing, 400 kills, clang-tidy;
             the thread sanitizer over OpenSceneGraph's threading models, in build-tsan/; Khronos' glTF validator, where npm can install it
   --help    this text
 
@@ -153,11 +153,11 @@ if [ $mode = long ] && command -v npm >/dev/null; then
     npm install --silent --no-audit --no-fund --prefix build/validator gltf-validator@2.0.0-dev.3.10 ||
         say "gltf-validator was not installed; its test is a skip"
 fi
-for label in house unit numerics parity plan gl golden cli; do
+for label in house editor unit numerics parity plan gl golden cli; do
     count $label build -L "^$label\$"
 done
 # A label that is new here is run too, so that nothing is forgotten.
-others=$(ctest --test-dir build --print-labels | sed -n 's/^  //p' | grep -vxE 'house|unit|numerics|parity|plan|gl|golden|cli|bench')
+others=$(ctest --test-dir build --print-labels | sed -n 's/^  //p' | grep -vxE 'house|editor|unit|numerics|parity|plan|gl|golden|cli|bench')
 for label in $others; do
     count "$label" build -L "^$label\$"
 done
@@ -171,6 +171,8 @@ export UBSAN_OPTIONS=${UBSAN_OPTIONS:-halt_on_error=1:print_stacktrace=1}
 if [ $mode = long ]; then
     export LODESTAR_FUZZ_FACTOR=10 RC_PARAMS="max_success=1000"
     build build-asan all || stop "the sanitizer build failed"
+    count "editor, killed 400 times" build -R '^editor_kill_test$' --timeout 1800
+    count "sanitized editor" build-asan -L '^editor$' --timeout 1800
     count "sanitized unit" build-asan -L '^unit$' --timeout 1800
     count "sanitized numerics" build-asan -L '^numerics$' --timeout 3600
     count "sanitized parity" build-asan -L '^parity$' --timeout 1800

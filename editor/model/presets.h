@@ -20,6 +20,10 @@ struct Preset {
     std::vector<document::Light> lights;
 };
 
+/// What a new light starts as: a sky of two stops, brighter above, or a sun's disc of 0.27 degrees;
+/// one key at noon. The gradient alone is what "reset" gives.
+[[nodiscard]] document::Light plainLight(lighting::LightKind kind, std::string name);
+
 /// Clear noon, golden hour, overcast, dusk, night, studio: a sky each, and a sun where there is
 /// one. Radiances fit exposure 0.
 [[nodiscard]] const std::vector<Preset>& builtInPresets();

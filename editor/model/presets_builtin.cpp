@@ -92,7 +92,7 @@ std::vector<Preset> make() {
          {sky({stop(90, {0.010, 0.018, 0.048}), stop(20, {0.016, 0.027, 0.062}),
                stop(0, {0.032, 0.043, 0.080}), stop(0, {0.008, 0.008, 0.011}),
                stop(-90, {0.005, 0.005, 0.008})}),
-          sun("moon", {-0.45, 0.70, -0.55}, {0.78, 0.88, 1.0}, 10.5, 1.0)}},
+          sun("moon", {-0.45, 0.70, -0.55}, {0.70, 0.84, 1.0}, 12.3, 1.5)}},
         {"Studio",
          {sky({stop(90, {0.300, 0.300, 0.310}), stop(20, {0.160, 0.160, 0.165}),
                stop(0, {0.090, 0.090, 0.095}), stop(-90, {0.050, 0.050, 0.050})}),
@@ -103,6 +103,22 @@ std::vector<Preset> make() {
 }
 
 } // namespace
+
+document::Light plainLight(LightKind kind, std::string name) {
+    const bool isSky = kind == LightKind::Sky;
+    Light light =
+        sky(isSky ? std::vector<Stop>{stop(90, glm::dvec3(0.5)), stop(-90, glm::dvec3(0.1))}
+                  : std::vector<Stop>{stop(0, glm::dvec3(1.0), 14.0),
+                                      stop(0.27, glm::dvec3(1.0), 14.0)});
+    light.kind = kind;
+    light.keys[0].gradient.interpolation = GradientInterpolation::Linear;
+    light.keys[0].gradient.space = GradientSpace::Linear;
+    light.name = std::move(name);
+    if (!isSky) {
+        light.axis = glm::dvec3(0.3, 0.8, 0.5);
+    }
+    return light;
+}
 
 const std::vector<Preset>& builtInPresets() {
     static const std::vector<Preset> presets = make();

@@ -32,6 +32,21 @@ TEST(Presets, BuiltInOnesAreDocumentsThatNothingMends) {
                                             "Overcast", "Studio"}));
 }
 
+TEST(Presets, ANewLightIsWholeAndBright) {
+    for (const auto kind : {lighting::LightKind::Sky, lighting::LightKind::Sun}) {
+        Model model;
+        did(model, AddLight{plainLight(kind, "new")});
+        core::Tally warnings;
+        const auto read = document::parseDocument(textOf(model), warnings);
+        ASSERT_TRUE(read);
+        EXPECT_TRUE(warnings.empty());
+        EXPECT_EQ(read->lights[0].name, "new");
+        EXPECT_EQ(read->lights[0].kind, kind);
+        EXPECT_GE(stopsOf(model).size(), 2U);
+        EXPECT_GT(redAt(model, stopsOf(model)[0].stop.at), 0.0);
+    }
+}
+
 TEST(Presets, TheUsersComeBackByName) {
     const testing::TemporaryFolder folder;
     const fs::path place = folder.path() / "deep" / "presets";
