@@ -50,8 +50,8 @@ vec3 punctualLights(LodestarSurface here) {
             float cone = clamp(dot(lightDirection[i].xyz, -l) * lightCone[i].x + lightCone[i].y, 0.0, 1.0);
             light *= window * cone * cone / distanceSquared;
         }
-        sum += light * lodestar_directReflectance(here.normal, here.view, l, here.diffuse, here.f0,
-                                                  here.exponent);
+        sum += light * lodestar_directReflectanceBy(here.normal, here.view, l, here.diffuse, here.f0,
+                                                    here.exponent, LODESTAR_LOBES, LODESTAR_FRESNEL);
     }
     return sum;
 }

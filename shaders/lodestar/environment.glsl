@@ -9,6 +9,7 @@
 // Feature macros (defaults in shaders/README.md):
 //   LODESTAR_SPECULAR  which estimator the glossy term uses, one of LODESTAR_SPECULAR_*
 //   LODESTAR_TAPS      LODESTAR_SPECULAR_TAPS only: how many taps, 1 to 1024
+//   LODESTAR_FRESNEL   which form Fresnel's reflectance takes, one of LODESTAR_FRESNEL_*
 //
 // A C++ host includes this file inside its class, after defining LODESTAR_HOST_CLASS, and its
 // member functions are the hooks: no global state, and the whole evaluation runs on the CPU.
@@ -98,10 +99,10 @@ LODESTAR_FN LodestarLookup lodestar_lookupAsGiven(vec3 n, vec3 v, Real exponent)
 }
 
 /// Radiance towards the viewer of light whose means over Lambert's and the glossy lobe are known:
-/// k_L (1 - F) lambert ao + F glossy ao_s, F Schlick's at n.v attenuated by roughness.
+/// k_L (1 - F) lambert ao + F glossy ao_s, F at n.v, attenuated by roughness, by LODESTAR_FRESNEL.
 LODESTAR_FN vec3 lodestar_reflected(LodestarSurface surface, vec3 lambert, vec3 glossy) {
     Real nDotV = clamp(dot(surface.normal, surface.view), Real(0.0f), Real(1.0f));
-    vec3 fresnel = lodestar_fresnelEnvironment(surface.f0, nDotV, surface.exponent);
+    vec3 fresnel = lodestar_fresnelEnvironmentBy(surface.f0, nDotV, surface.exponent, LODESTAR_FRESNEL);
     return surface.diffuse * (vec3(1.0f) - fresnel) * lambert * surface.occlusion +
            fresnel * glossy * lodestar_specularOcclusion(surface.occlusion, surface.exponent);
 }

@@ -1,15 +1,30 @@
 // SPDX-License-Identifier: MIT
 //
 // Cosine-power lobes: Phong about the reflection, Blinn-Phong about the half vector, their
-// normalisers, and the conversions between the two and from metallic-roughness.
+// normalisers, and the conversions between the two and from metallic-roughness. Feature macros:
+//   LODESTAR_LOBES    which form direct light's highlights take, one of LODESTAR_LOBES_*
+//   LODESTAR_FRESNEL  which form Fresnel's reflectance takes, one of LODESTAR_FRESNEL_*
 // Names: `exponent` alone is the one that the function says; k_L (`diffuse`) and F0 (`f0`) are
 // reflectances in [0, 1]; no function here divides by pi unless it says so.
 #ifndef LODESTAR_LOBES_GLSL
 #define LODESTAR_LOBES_GLSL
 #include "dual.glsl"
 #include "power.glsl"
+#include "sg.glsl"
+
+#ifndef LODESTAR_LOBES
+#define LODESTAR_LOBES 0
+#endif
+#ifndef LODESTAR_FRESNEL
+#define LODESTAR_FRESNEL 0
+#endif
 
 LODESTAR_BEGIN
+
+LODESTAR_CONST int LODESTAR_LOBES_POWER = 0; ///< cosine powers
+LODESTAR_CONST int LODESTAR_LOBES_SG = 1;    ///< spherical Gaussians
+LODESTAR_CONST int LODESTAR_FRESNEL_SCHLICK = 0;
+LODESTAR_CONST int LODESTAR_FRESNEL_SG = 1; ///< lodestar_sgFresnelWeight
 
 /// (1 - x)^5 for x in [0, 1], clamped first: rounding makes cosines of 1.0000001.  [Schlick 1994]
 LODESTAR_FN Real lodestar_schlickWeight(Real cosine) {
@@ -18,12 +33,22 @@ LODESTAR_FN Real lodestar_schlickWeight(Real cosine) {
     return m2 * m2 * m;
 }
 
-/// Schlick's Fresnel reflectance for direct light. @param cosine v.h [0, 1]
-LODESTAR_FN vec3 lodestar_fresnel(vec3 f0, Real cosine) {
-    return f0 + (vec3(1.0f) - f0) * lodestar_schlickWeight(cosine);
+/// How far reflectance has risen from F0 to 1. @param form one of LODESTAR_FRESNEL_*
+LODESTAR_FN Real lodestar_fresnelWeight(Real cosine, int form) {
+    return form == LODESTAR_FRESNEL_SG ? lodestar_sgFresnelWeight(cosine) : lodestar_schlickWeight(cosine);
 }
 
-/// The roughness whose alpha = roughness^2 gives this Blinn-Phong exponent: s = 2 / alpha^2 - 2.
+/// Fresnel's reflectance for direct light. @param cosine v.h [0, 1]  @param form one of LODESTAR_FRESNEL_*
+LODESTAR_FN vec3 lodestar_fresnelBy(vec3 f0, Real cosine, int form) {
+    return f0 + (vec3(1.0f) - f0) * lodestar_fresnelWeight(cosine, form);
+}
+
+/// The same by Schlick's form.
+LODESTAR_FN vec3 lodestar_fresnel(vec3 f0, Real cosine) {
+    return lodestar_fresnelBy(f0, cosine, LODESTAR_FRESNEL_SCHLICK);
+}
+
+/// The roughness whose alpha = roughness^2 gives this Blinn-Phong exponent: s = 2 / alpha^2 - 2 (EXP-1).
 /// @return [0, 1]; 1 for s = 0
 LODESTAR_FN Real lodestar_roughnessFromExponent(Real exponent) {
     return sqrt(sqrt(2.0f / (lodestar_repairExponent(exponent) + 2.0f)));
@@ -38,11 +63,17 @@ LODESTAR_FN Real lodestar_exponentFromRoughness(Real roughness) {
                  LODESTAR_MAX_EXPONENT);
 }
 
-/// Schlick's Fresnel at n.v for light gathered over a whole lobe: the rise at grazing angles is
+/// Fresnel's reflectance at n.v for light gathered over a whole lobe: the rise at grazing angles is
 /// limited to 1 - roughness, so that rough things have no white rims. F0 = 1 stays 1.
-LODESTAR_FN vec3 lodestar_fresnelEnvironment(vec3 f0, Real nDotV, Real exponent) {
+/// @param form one of LODESTAR_FRESNEL_*
+LODESTAR_FN vec3 lodestar_fresnelEnvironmentBy(vec3 f0, Real nDotV, Real exponent, int form) {
     vec3 limit = max(vec3(1.0f - lodestar_roughnessFromExponent(exponent)), f0);
-    return f0 + (limit - f0) * lodestar_schlickWeight(nDotV);
+    return f0 + (limit - f0) * lodestar_fresnelWeight(nDotV, form);
+}
+
+/// The same by Schlick's form.
+LODESTAR_FN vec3 lodestar_fresnelEnvironment(vec3 f0, Real nDotV, Real exponent) {
+    return lodestar_fresnelEnvironmentBy(f0, nDotV, exponent, LODESTAR_FRESNEL_SCHLICK);
 }
 
 /// What multiplies (n.h)^s (n.l) so that the lobe reflects all light at n = v, over pi already:
@@ -90,19 +121,36 @@ LODESTAR_FN Real lodestar_lookupBlend(Real exponent, Real nDotV) {
     return odds / (1.0f + odds);
 }
 
-/// Radiance-per-irradiance of direct light: diffuse and Blinn-Phong terms times n.l, pi divided.
+/// (n.h)^s of two unit vectors, or the spherical Gaussian nearest in shape with the same peak (SG-3);
+/// 0 where h is behind. @param form one of LODESTAR_LOBES_*  @param s exponent, [0, 1e7]
+LODESTAR_FN Real lodestar_highlight(vec3 n, vec3 h, Real s, int form) {
+    Real lobe = form == LODESTAR_LOBES_SG
+                    ? lodestar_sgBetween(n, h, lodestar_sgSharpness(s, LODESTAR_SG_SHAPE))
+                    : lodestar_cosinePowerBetween(n, h, s);
+    return dot(n, h) > 0.0f ? lobe : Real(0.0f);
+}
+
+/// Radiance-per-irradiance of direct light: diffuse and Blinn-Phong terms times n.l, pi divided. The
+/// normaliser is the cosine power's for either form of the lobe.
 /// @param n, v, l unit; l towards the light  @param diffuse k_L  @param f0 reflectance at h = v
+/// @param lobes, fresnel one of LODESTAR_LOBES_*, of LODESTAR_FRESNEL_*
 /// @return to be multiplied by the light's irradiance on a surface facing it
-LODESTAR_FN vec3 lodestar_directReflectance(vec3 n, vec3 v, vec3 l, vec3 diffuse, vec3 f0,
-                                            Real exponent) {
+LODESTAR_FN vec3 lodestar_directReflectanceBy(vec3 n, vec3 v, vec3 l, vec3 diffuse, vec3 f0,
+                                              Real exponent, int lobes, int fresnel) {
     Real nDotL = clamp(dot(n, l), Real(0.0f), Real(1.0f));
     vec3 h = lodestar_safeNormalize(l + v, -n); // opposite l and v have no half vector: no highlight
     Real s = lodestar_repairExponent(exponent);
-    vec3 fresnel = lodestar_fresnel(f0, dot(v, h));
-    Real lobe = dot(n, h) > 0.0f ? lodestar_cosinePowerBetween(n, h, s) : Real(0.0f);
-    vec3 specular = fresnel * (lodestar_blinnPhongNormaliser(s) * lobe);
-    vec3 lambert = diffuse * (vec3(1.0f) - fresnel) * (1.0f / LODESTAR_PI);
+    vec3 reflectance = lodestar_fresnelBy(f0, dot(v, h), fresnel);
+    vec3 specular = reflectance * (lodestar_blinnPhongNormaliser(s) * lodestar_highlight(n, h, s, lobes));
+    vec3 lambert = diffuse * (vec3(1.0f) - reflectance) * (1.0f / LODESTAR_PI);
     return (lambert + specular) * nDotL;
+}
+
+/// The same by cosine powers and Schlick's form.
+LODESTAR_FN vec3 lodestar_directReflectance(vec3 n, vec3 v, vec3 l, vec3 diffuse, vec3 f0,
+                                            Real exponent) {
+    return lodestar_directReflectanceBy(n, v, l, diffuse, f0, exponent, LODESTAR_LOBES_POWER,
+                                        LODESTAR_FRESNEL_SCHLICK);
 }
 
 /// Occlusion of glossy light by an ambient-occlusion factor: all of it for broad lobes, none for

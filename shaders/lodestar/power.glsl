@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Cosine powers that stay finite: x^s for x in [0, 1] and s in [0, 1e7], the repair of exponents, and
-// the accurate form from a chord. Exponents above LODESTAR_MAX_EXPONENT are mirrors.
+// Cosine powers that stay finite: x^s for x in [0, 1] and s in [0, 1e7], the repair of exponents, the
+// accurate form from a chord, and 1 - exp(-x). Exponents above LODESTAR_MAX_EXPONENT are mirrors.
 #ifndef LODESTAR_POWER_GLSL
 #define LODESTAR_POWER_GLSL
 #include "dual.glsl"
@@ -42,6 +42,17 @@ LODESTAR_FN Real lodestar_cosinePowerFromChord(Real d, Real s) {
 LODESTAR_FN Real lodestar_cosinePowerBetween(vec3 a, vec3 b, Real s) {
     vec3 chord = a - b;
     return lodestar_cosinePowerFromChord(0.5f * dot(chord, chord), s);
+}
+
+/// 1 - exp(-x) for x >= 0 without cancellation: the series below a tenth, where what is left out is at
+/// most 2e-10 of the whole.
+LODESTAR_FN Real lodestar_oneMinusExp(Real x) {
+    Real series =
+        x * (1.0f -
+             x * (0.5f - x * (LODESTAR_LITERAL(0.16666666666666667) -
+                              x * (LODESTAR_LITERAL(0.041666666666666667) -
+                                   x * (LODESTAR_LITERAL(0.0083333333333333333) - x * LODESTAR_LITERAL(0.0013888888888888889))))));
+    return x < LODESTAR_LITERAL(0.1) ? series : 1.0f - exp(-x);
 }
 
 /// (1 - t) a + t b of radiances, a few roundings of itself off. GLSL's mix need not be, nor that

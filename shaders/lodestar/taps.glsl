@@ -25,17 +25,6 @@ LODESTAR_FN vec3 lodestar_tangent(vec3 d) {
     return vec3(1.0f - d.x * d.x * a, -d.x, -d.x * d.z * a);
 }
 
-/// 1 - exp(-x) for x >= 0 without cancellation: the series below a tenth, where what is left out is at
-/// most 2e-10 of the whole.
-LODESTAR_FN Real lodestar_oneMinusExp(Real x) {
-    Real series =
-        x * (1.0f -
-             x * (0.5f - x * (LODESTAR_LITERAL(0.16666666666666667) -
-                              x * (LODESTAR_LITERAL(0.041666666666666667) -
-                                   x * (LODESTAR_LITERAL(0.0083333333333333333) - x * LODESTAR_LITERAL(0.0013888888888888889))))));
-    return x < LODESTAR_LITERAL(0.1) ? series : 1.0f - exp(-x);
-}
-
 /// A tap of a lobe (TAP-1, TAP-2).
 /// @param d the lobe's axis  @param tangent lodestar_tangent(d)  @param turn cosine and sine of the azimuth
 /// @param exponent Phong, [0, 1e7]  @param logShare log2 of the lobe's share outside the tap, <= 0

@@ -47,6 +47,8 @@ std::vector<GlslCase> volumeCases();
 /// p0 x in [0, 60], 3 or 7, a number of taps from 4; p1 unit and exponent; p2 cosine, sine, log2 of
 /// a share; p3 reach, narrow, widening; p4 p1's tangent; p5 cosine, sine.
 std::vector<GlslCase> tapCases();
+/// p0 unit and any sharpness, p1 the same, p2.x d in [0, 2], p2.y an exponent.
+std::vector<GlslCase> sgCases();
 std::vector<GlslCase> shareCases(); ///< p0 w0, w1, f0, f1; p1.x open
 
 } // namespace lodestar::testing

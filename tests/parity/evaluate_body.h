@@ -8,6 +8,7 @@
 #include "lodestar/probes.glsl"
 #include "lodestar/reference.glsl"
 #include "lodestar/rsrm.glsl"
+#include "lodestar/sg.glsl"
 #include "lodestar/sh9.glsl"
 #include "lodestar/taps.glsl"
 

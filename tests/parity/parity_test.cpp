@@ -124,8 +124,13 @@ TEST_F(Parity, EveryFunctionUnderGlsl450) {
 
 // A comparison that cannot fail proves nothing: a changed constant is found.
 TEST_F(Parity, FindsAChangedConstant) {
-    const ParityRow row = parityRows()[9];
-    ASSERT_EQ(row.function, "lodestar_mipLevelUnclamped");
+    const std::vector<ParityRow> rows = parityRows();
+    std::size_t index = 0;
+    while (index < rows.size() && rows[index].function != "lodestar_mipLevelUnclamped") {
+        ++index;
+    }
+    ASSERT_LT(index, rows.size());
+    const ParityRow row = rows[index];
     const std::vector<GlslCase> cases = row.cases();
     ParityRow changed = row;
     const std::string expression = std::string(row.expression) + " * 1.00001";
@@ -134,7 +139,7 @@ TEST_F(Parity, FindsAChangedConstant) {
     ASSERT_EQ(values.size(), cases.size());
     std::size_t found = 0;
     for (std::size_t i = 0; i < cases.size(); ++i) {
-        const glm::dvec4 exactValue = doubleEvaluations()[9](cases[i]);
+        const glm::dvec4 exactValue = doubleEvaluations()[index](cases[i]);
         const double bound = row.tolerance(cases[i], exactValue, 0)[0];
         found += excess(static_cast<double>(values[i].x), exactValue.x, bound) > 1.0;
     }

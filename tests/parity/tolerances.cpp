@@ -107,7 +107,8 @@ Tolerance exact(const GlslCase&, const glm::dvec4&, int) {
     return same(0.0);
 }
 // schlickWeight: 1 - x by u/2, its fifth power by 5 u/2, three products; k_L, F0: two products and
-// a sum of numbers in [0, 1].
+// a sum of numbers in [0, 1]. sgFresnelWeight: y by 1.5 u |y|, of which 2^y leaves 0.6 u; exp2 (3 +
+// 2 |y|) 2^y <= 3.
 Tolerance absolute6(const GlslCase&, const glm::dvec4&, int) {
     return same(6.0 * u);
 }
@@ -215,7 +216,34 @@ Tolerance exponentFromRoughnessTolerance(const GlslCase&, const glm::dvec4& v, i
     return same(5.0 * u * (v.x + 2.0));
 }
 
-Tolerance directTolerance(const GlslCase& p, const glm::dvec4&, int) {
+namespace {
+
+/// exp(-l d), d off by dd: the product by half a unit, the rise to l by one, exp.
+double sgError(double value, double d, double sharpness, double dd) {
+    const double y = sharpness * d;
+    return powerError(value, y, sharpness * dd + 2.0 * u * y);
+}
+
+/// A highlight's lobe of two unit vectors, and how far it may be off when h is by dh.
+struct Lobe {
+    double value = 0.0;
+    double error = 0.0;
+};
+Lobe lobeOf(const glm::dvec3& n, const glm::dvec3& h, double s, double dh, int form) {
+    const glm::dvec3 chord = n - h;
+    const double d = 0.5 * glm::dot(chord, chord);
+    const double dd = glm::length(chord) * (dh + u) + 4.0 * u * d;
+    const double value = shader_double::lodestar_highlight(n, h, s, form);
+    if (value <= 0.0) {
+        return {};
+    }
+    return {value, form == shader_double::LODESTAR_LOBES_SG
+                       ? sgError(value, d, s + shader_double::LODESTAR_SG_SHAPE, dd)
+                       : chordError(value, d, s, dd)};
+}
+
+/// Both forms of Fresnel's weight have the same bounds: a slope of at most 5, and absolute6.
+Tolerance directError(const GlslCase& p, int form) {
     const glm::dvec3 n = vec(p[0]);
     const glm::dvec3 v = vec(p[1]);
     const glm::dvec3 l = vec(p[2]);
@@ -223,18 +251,32 @@ Tolerance directTolerance(const GlslCase& p, const glm::dvec4&, int) {
     const glm::dvec3 h = shader_double::lodestar_safeNormalize(l + v, -n);
     const double nDotL = std::clamp(glm::dot(n, l), 0.0, 1.0);
     const double dh = 2.0 * u / std::max(glm::length(l + v), 1e-3) + 5.0 * u;
-    const glm::dvec3 chord = n - h;
-    const double d = 0.5 * glm::dot(chord, chord);
-    const double lobe =
-        glm::dot(n, h) > 0.0 ? shader_double::lodestar_cosinePowerFromChord(d, s) : 0.0;
-    const double lobeError =
-        lobe > 0.0 ? chordError(lobe, d, s, glm::length(chord) * (dh + u) + 4.0 * u * d) : 0.0;
+    const Lobe lobe = lobeOf(n, h, s, dh, form);
     const double normaliser = shader_double::lodestar_blinnPhongNormaliser(s);
     const double fresnelError = 5.0 * (dh + 3.0 * u) + 9.0 * u;
     // Reflectances are at most 1: lambert at most 1 / pi, the highlight normaliser times lobe.
-    const double highlight = normaliser * (lobe * (fresnelError + 14.0 * u) + lobeError);
+    const double highlight = normaliser * (lobe.value * (fresnelError + 14.0 * u) + lobe.error);
     const double lambert = (fresnelError + 5.0 * u) / std::acos(-1.0);
-    return same(nDotL * (highlight + lambert) + 4.0 * u * (normaliser * lobe + 0.32) + kTiny);
+    return same(nDotL * (highlight + lambert) + 4.0 * u * (normaliser * lobe.value + 0.32) + kTiny);
+}
+
+} // namespace
+
+Tolerance directTolerance(const GlslCase& p, const glm::dvec4&, int) {
+    return directError(p, shader_double::LODESTAR_LOBES_POWER);
+}
+
+Tolerance directBySgTolerance(const GlslCase& p, const glm::dvec4&, int) {
+    return directError(p, shader_double::LODESTAR_LOBES_SG);
+}
+
+Tolerance highlightTolerance(const GlslCase& p, const glm::dvec4&, int) {
+    // The vectors are the case's own, off by nothing; their difference rounds by u/2 of itself.
+    const auto error = [&](int form) {
+        return lobeOf(vec(p[0]), vec(p[1]), static_cast<double>(p[2].y), -u, form).error;
+    };
+    return {error(shader_double::LODESTAR_LOBES_SG), error(shader_double::LODESTAR_LOBES_POWER),
+            0.0, 0.0};
 }
 
 // A sum and a quotient; turns up to 31, two products and a sum, of which the fraction is left.
