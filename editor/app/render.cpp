@@ -84,7 +84,9 @@ nlohmann::json stats(const std::vector<scene::Frame>& frames, const gl::WorkCoun
             {"estimators",
              {{"specular", lighting::estimatorName(loaded.settings.specular)},
               {"diffuse", lighting::estimatorName(loaded.settings.diffuse)},
-              {"lights", loaded.lights.empty() ? "" : loaded.lightsEstimator}}}};
+              {"lights", loaded.lights.empty() ? "" : loaded.lightsEstimator},
+              {"lobes", lighting::nameOf(loaded.settings.lobes)},
+              {"fresnel", lighting::nameOf(loaded.settings.fresnel)}}}};
 }
 
 /// Draws the last frame again, by its own estimators and by many taps, and writes how they differ.

@@ -175,6 +175,12 @@ core::Result<scene::RenderSettings> renderSettings(const SceneOptions& options) 
         return diffuse.error();
     }
     settings.diffuse = *diffuse;
+    if (options.lobes == nameOf(lighting::LobeForm::Sg)) {
+        settings.lobes = lighting::LobeForm::Sg;
+    }
+    if (options.fresnel == nameOf(lighting::FresnelForm::Sg)) {
+        settings.fresnel = lighting::FresnelForm::Sg;
+    }
     settings.backdrop = !options.noBackdrop;
     settings.seamless = !options.faceSeams;
     settings.faceBudget = options.faceBudget.value_or(settings.faceBudget);
@@ -188,6 +194,20 @@ core::Result<scene::RenderSettings> renderSettings(const SceneOptions& options) 
         settings.materialOverride = *values;
     }
     return settings;
+}
+
+/// What stands for powers.
+void addForms(CLI::App& command, SceneOptions& options) {
+    command
+        .add_option("--lobes", options.lobes,
+                    "Highlights of the scene's lamps: power, or sg, spherical Gaussians")
+        ->check(CLI::IsMember({"power", "sg"}))
+        ->capture_default_str();
+    command
+        .add_option("--fresnel", options.fresnel,
+                    "Fresnel's reflectance: schlick, or sg, one exponential")
+        ->check(CLI::IsMember({"schlick", "sg"}))
+        ->capture_default_str();
 }
 
 } // namespace
@@ -233,6 +253,7 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command.add_option(
         "--diffuse", options.diffuse,
         "Diffuse estimator: irradiance (default), sh9, lowest-mip, bias:LAMBDA, or the lights'");
+    addForms(command, options);
     command.add_option("--override-material", options.materialOverride,
                        "diffuse=R,G,B,f0=R,G,B,exponent=S for every material");
     command

@@ -34,6 +34,8 @@ struct SceneOptions {
     std::string animation;      ///< name or number; empty: the first, if a time is given
     std::optional<double> time; ///< seconds
     std::string specular, diffuse;
+    std::string lobes = nameOf(lighting::LobeForm::Power);
+    std::string fresnel = nameOf(lighting::FresnelForm::Schlick);
     std::string materialOverride;
     std::optional<int> faceBudget;       ///< faces of light probes a frame
     std::optional<double> probeBudgetMs; ///< milliseconds of a frame for light probes

@@ -176,6 +176,14 @@ std::vector<std::string> estimatorNames(Term term) {
     return names;
 }
 
+std::string nameOf(LobeForm form) {
+    return form == LobeForm::Sg ? "sg" : "power";
+}
+
+std::string nameOf(FresnelForm form) {
+    return form == FresnelForm::Sg ? "sg" : "schlick";
+}
+
 bool readsTentMips(EstimatorKind kind) {
     return kind == EstimatorKind::Tent || kind == EstimatorKind::Ring3 ||
            kind == EstimatorKind::Ring7 || kind == EstimatorKind::Taps ||

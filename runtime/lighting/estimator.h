@@ -61,6 +61,15 @@ inline constexpr Estimator kDefaultDiffuse{EstimatorKind::Irradiance, 0.0f};
 /// stand as that.
 [[nodiscard]] std::vector<std::string> estimatorNames(Term term);
 
+/// What stands for the power of a highlight's cosine, and for Fresnel's (1 - x)^5: that itself, or
+/// a spherical Gaussian (docs/derivations/sg.md).
+enum class LobeForm { Power, Sg };
+enum class FresnelForm { Schlick, Sg };
+
+/// Their names, on the command line too: `power`, `schlick`, `sg`.
+[[nodiscard]] std::string nameOf(LobeForm form);
+[[nodiscard]] std::string nameOf(FresnelForm form);
+
 /// Whether it reads tent mips about the lookup of a Blinn-Phong lobe: `tent`, rings, taps
 /// and what `auto` chooses.
 [[nodiscard]] bool readsTentMips(EstimatorKind kind);

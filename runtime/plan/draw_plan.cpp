@@ -27,7 +27,11 @@ Features lightFeatures(const PlanInput& input, const EffectPlan& result) {
     Features features = input.environment.present ? bit(Feature::Environment) : 0u;
     features |= result.rsrmLights.empty() ? 0u : bit(Feature::RsrmLights);
     features |= result.shadowedLights() > 0 ? bit(Feature::Shadows) : 0u;
-    features |= input.lightCount > 0 ? bit(Feature::PunctualLights) : 0u;
+    features |= input.fresnel == lighting::FresnelForm::Sg ? bit(Feature::SgFresnel) : 0u;
+    if (input.lightCount > 0) {
+        features |= bit(Feature::PunctualLights);
+        features |= input.lobes == lighting::LobeForm::Sg ? bit(Feature::SgLobes) : 0u;
+    }
     return features;
 }
 

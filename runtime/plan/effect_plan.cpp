@@ -13,7 +13,7 @@ namespace {
 
 using lighting::PreparedParts;
 
-constexpr std::array<const char*, 30> kFeatureNames = {"normals",
+constexpr std::array<const char*, 32> kFeatureNames = {"normals",
                                                        "tangents",
                                                        "vertex-colors",
                                                        "base-color-texture",
@@ -42,7 +42,9 @@ constexpr std::array<const char*, 30> kFeatureNames = {"normals",
                                                        "ring-3",
                                                        "ring-7",
                                                        "taps-32",
-                                                       "taps-64"};
+                                                       "taps-64",
+                                                       "sg-lobes",
+                                                       "sg-fresnel"};
 
 /// Texels of a whole chain of six faces.
 std::uint64_t chainTexels(int width) {
@@ -372,9 +374,10 @@ EffectPlan plan(const PlanInput& input) {
          std::to_string(input.lightCount) + " lights",
          input.lightCount > 0 && receivers.lit ? Decision::Run : Decision::Skip,
          input.lightCount == 0 ? "the scene has none"
-         : receivers.lit       ? "visible surfaces receive them"
-         : receivers.any       ? "all that is visible is unlit"
-                               : "nothing is visible",
+         : !receivers.lit ? receivers.any ? "all that is visible is unlit" : "nothing is visible"
+         : input.lobes == lighting::LobeForm::Sg
+             ? "visible surfaces receive them, highlights as spherical Gaussians"
+             : "visible surfaces receive them",
          {}});
     planBackdrop(input, result);
     return result;

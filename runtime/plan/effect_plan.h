@@ -49,6 +49,8 @@ enum class Feature : std::uint32_t {
     Ring7 = 1u << 27,
     Taps32 = 1u << 28,
     Taps64 = 1u << 29,
+    SgLobes = 1u << 30,   ///< highlights of analytic lights are spherical Gaussians
+    SgFresnel = 1u << 31, ///< Fresnel's reflectance is a spherical Gaussian's
 };
 
 using Features = std::uint32_t;
@@ -149,6 +151,8 @@ struct PlanInput {
     std::vector<ProbeView> probes;
     lighting::Estimator specular = lighting::kDefaultSpecular;
     lighting::Estimator diffuse = lighting::kDefaultDiffuse;
+    lighting::LobeForm lobes = lighting::LobeForm::Power; ///< of analytic lights' highlights
+    lighting::FresnelForm fresnel = lighting::FresnelForm::Schlick;
     bool jointsMoved = true;      ///< since they were last uploaded
     std::uint64_t jointBytes = 0; ///< of all skins' joints
     bool backdrop = true;

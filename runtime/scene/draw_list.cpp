@@ -258,6 +258,8 @@ plan::PlanInput planInput(const Scene& scene, const View& view, const RenderSett
     input.lightCount = static_cast<int>(placedLights(scene).size());
     input.specular = settings.specular;
     input.diffuse = settings.diffuse;
+    input.lobes = settings.lobes;
+    input.fresnel = settings.fresnel;
     input.backdrop = settings.backdrop;
     input.pixels = static_cast<std::uint64_t>(settings.width) *
                    static_cast<std::uint64_t>(settings.height) *

@@ -85,6 +85,8 @@ gl::Defines definesFor(plan::Features features, const plan::EffectPlan& plan,
         {"LODESTAR_SKINNING", Feature::Skinning},
         {"LODESTAR_SECOND_JOINTS", Feature::SecondJoints},
         {"LODESTAR_RSRM_MIRROR", Feature::RsrmMirror},
+        {"LODESTAR_LOBES", Feature::SgLobes},
+        {"LODESTAR_FRESNEL", Feature::SgFresnel},
     };
     for (const auto& [name, feature] : macros) {
         defines.emplace_back(name, plan::has(features, feature) ? "1" : "0");

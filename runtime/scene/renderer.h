@@ -38,6 +38,8 @@ struct RenderSettings {
     int samplesPerSide = 1; ///< supersampling: samplesPerSide^2 samples a pixel
     lighting::Estimator specular = lighting::kDefaultSpecular;
     lighting::Estimator diffuse = lighting::kDefaultDiffuse;
+    lighting::LobeForm lobes = lighting::LobeForm::Power; ///< of analytic lights' highlights
+    lighting::FresnelForm fresnel = lighting::FresnelForm::Schlick;
     bool backdrop = true;
     double hour = 15.0;   ///< local solar time of the lights; finite, wrapped into [0, 24)
     bool seamless = true; ///< false filters each cube face on its own, for comparison only

@@ -99,6 +99,33 @@ TEST(Estimators, AMaterialMayHaveItsOwn) {
     EXPECT_TRUE(pictureOf(folder, {{"tolerance", 9.0}}, {"--specular", "ring:7"}) == tent);
 }
 
+// The floor under a document's light has no lamps: Fresnel's form shows, that of lobes has nothing
+// to act on, and either is said.
+TEST(Estimators, FormsOfLobesAndFresnel) {
+    const TemporaryFolder folder;
+    const json dielectric = {{"f0", {0.04, 0.04, 0.04}}};
+    const std::string plain = pictureOf(folder, dielectric, {});
+    EXPECT_TRUE(pictureOf(folder, dielectric, {"--lobes", "power", "--fresnel", "schlick"}) ==
+                plain);
+    EXPECT_TRUE(pictureOf(folder, dielectric, {"--lobes", "sg"}) == plain);
+    const std::string stats = folder.file("stats.json");
+    EXPECT_TRUE(pictureOf(folder, dielectric, {"--fresnel", "sg", "--stats", stats}) != plain);
+    std::ifstream file(stats);
+    const json said = json::parse(file);
+    EXPECT_EQ(said.at("estimators").at("fresnel"), "sg");
+    EXPECT_EQ(said.at("estimators").at("lobes"), "power");
+    EXPECT_EQ(said.at("plan").at("features").dump().find("sg-lobes"), std::string::npos);
+    EXPECT_NE(said.at("plan").at("features").dump().find("sg-fresnel"), std::string::npos);
+    for (const std::vector<std::string>& wrong :
+         {std::vector<std::string>{"--lobes", "gauss"}, {"--fresnel", "1"}, {"--lobes", ""}}) {
+        std::vector<std::string> call = {"plan", floorScene(folder)};
+        call.insert(call.end(), wrong.begin(), wrong.end());
+        const RunResult run = runLodestar(call);
+        EXPECT_EQ(run.status, 2) << wrong[0] << wrong[1];
+        EXPECT_EQ(run.errorLines().size(), 1u) << run.err;
+    }
+}
+
 TEST(Estimators, ThePlanSaysWhatAutoChoseAndWhy) {
     const TemporaryFolder folder;
     const RunResult run =

@@ -445,6 +445,27 @@ TEST(Plan, LightsThatHaveNotChangedAreKept) {
     EXPECT_EQ(result.rsrmLights[0].shadow, 0) << "it is drawn already, and read";
 }
 
+TEST(Plan, FormsAreFeaturesOfWhatUsesThem) {
+    DrawView unlit = ball();
+    unlit.lit = false;
+    PlanInput input = scene({ball(), unlit});
+    const Features forms = bit(Feature::SgLobes) | bit(Feature::SgFresnel);
+    for (const int lamps : {0, 2}) {
+        input.lightCount = lamps;
+        input.lobes = lighting::LobeForm::Power;
+        input.fresnel = lighting::FresnelForm::Schlick;
+        EXPECT_EQ(plan(input).drawFeatures[0] & forms, 0u) << "nothing was asked for";
+        input.lobes = lighting::LobeForm::Sg;
+        EXPECT_EQ(plan(input).drawFeatures[0] & forms,
+                  lamps > 0 ? bit(Feature::SgLobes) : Features{0});
+        input.fresnel = lighting::FresnelForm::Sg;
+        const EffectPlan both = plan(input);
+        EXPECT_EQ(both.drawFeatures[0] & forms, lamps > 0 ? forms : bit(Feature::SgFresnel));
+        EXPECT_EQ(both.drawFeatures[1] & forms, 0u) << "it takes no light";
+    }
+    EXPECT_EQ(featureNames(forms), (std::vector<std::string>{"sg-lobes", "sg-fresnel"}));
+}
+
 TEST(Plan, NothingReceivesWhereNothingIsLit) {
     DrawView unlit = ball();
     unlit.lit = false;
