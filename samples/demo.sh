@@ -35,7 +35,7 @@ export LIBGL_ALWAYS_SOFTWARE=${LIBGL_ALWAYS_SOFTWARE:-1}
 out=out/demo
 assets=$out/assets
 parts=$out/parts
-total=17
+total=18
 step=0
 started=$SECONDS
 
@@ -155,6 +155,24 @@ studio="--environment $assets/studio.exr"
         --row "mip-floor: the same, no finer than the pixel" "$parts/estimators_mip-floor.png" \
         --row "tent: mips filtered across faces, fitted direction and level" "$parts/estimators_tent.png"
 
+    next "lobes and Fresnel's reflectance as spherical Gaussians"
+    row="--no-backdrop --size 880x176 --environment constant:0,0,0"
+    forms="--lobes power --fresnel schlick|--lobes sg|--fresnel sg"
+    for form in power lobes fresnel; do
+        render "$parts/gaussians-$form.exr" lamps $row ${forms%%|*}
+        forms=${forms#*|}
+    done
+    for form in lobes fresnel; do
+        build/lodestar compare "$parts/gaussians-$form.exr" "$parts/gaussians-power.exr" --error-scale 10 \
+            -o "$parts/gaussians-$form.png" >"$parts/gaussians-$form.json" || stop "pictures could not be compared"
+    done
+    sheet gaussians --title "Spherical Gaussians" \
+        --note "Exponents 1, 4, 16, 64, 256, F0 0.04, a lamp before them and one past their rims; errors against powers" \
+        --row "(n.h)^s and (1 - x)^5" "$parts/gaussians-power.exr" \
+        --row "the highlight as a spherical Gaussian, exp(-(s + 3/4) (1 - n.h))" "$parts/gaussians-lobes.exr" \
+        --row "and how far it is off" "$parts/gaussians-lobes.png" \
+        --row "Fresnel as one, and how far it is off" "$parts/gaussians-fresnel.png"
+
     next "the terrace"
     render $out/terrace.png terrace --size 1280x720 --camera terrace --environment-width 512 $courtyard
     next "the terrace's table"
@@ -236,7 +254,7 @@ sheet walk --title "A walk" --note "From 17:30 to 19:30; the lift moves, and nev
     "$parts/walk-0080.png" "$parts/walk-0099.png"
 
 echo "done in $((SECONDS - started)) s; look at:"
-for picture in figure1 figure2 figure3 ashikhmin seams estimators terrace table day hours golden_hour lift dusk walk; do
+for picture in figure1 figure2 figure3 ashikhmin seams estimators gaussians terrace table day hours golden_hour lift dusk walk; do
     echo "    $out/$picture.png"
 done
 

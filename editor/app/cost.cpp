@@ -13,6 +13,7 @@
 #include "app/command.h"
 #include "app/commands.h"
 #include "app/cost_estimates.h"
+#include "app/cost_lobes.h"
 #include "app/cost_page.h"
 #include "app/cost_plots.h"
 #include "app/cost_shading.h"
@@ -190,6 +191,26 @@ private:
     CostTable& table_;
 };
 
+/// Direct light by each pair of forms at each exponent; the time, which no exponent changes, once.
+core::Result<void> measureLobes(const CostOptions& options, CostShading& shading,
+                                CostTable& table) {
+    for (const auto lobes : {lighting::LobeForm::Power, lighting::LobeForm::Sg}) {
+        for (const auto fresnel : {lighting::FresnelForm::Schlick, lighting::FresnelForm::Sg}) {
+            const double middle = table.exponents[table.exponents.size() / 2];
+            const auto ms = shading.lobeMilliseconds(lobes, fresnel, middle, options.repeats);
+            if (!ms) {
+                return ms.error();
+            }
+            for (const double exponent : table.exponents) {
+                const LobeErrors errors = lobeErrors(lobes, fresnel, exponent);
+                table.lobes.push_back(
+                    {nameOf(lobes), nameOf(fresnel), exponent, errors.rmse, errors.worst, *ms});
+            }
+        }
+    }
+    return {};
+}
+
 core::Result<CostTable> measureAll(const CostOptions& options) {
     auto exponents = parseExponents(options.exponents, "--exponents");
     if (!exponents) {
@@ -234,6 +255,9 @@ core::Result<CostTable> measureAll(const CostOptions& options) {
         return empty.error();
     }
     table.emptyTileMs = *empty;
+    if (auto measured = measureLobes(options, **shading, table); !measured) {
+        return measured.error();
+    }
     markFront(table.rows);
     return table;
 }
@@ -272,6 +296,9 @@ writePictures(const CostTable& table, const std::filesystem::path& folder) {
 core::Result<void> writeAll(const CostOptions& options, const CostTable& table) {
     const std::filesystem::path folder = options.folder;
     if (auto written = writeText(folder / "cost.csv", costCsv(table)); !written) {
+        return written;
+    }
+    if (auto written = writeText(folder / "lobes.csv", lobesCsv(table)); !written) {
         return written;
     }
     if (auto written = writeText(folder / "cost.json", costJson(table).dump(1) + "\n"); !written) {
@@ -335,7 +362,8 @@ void addCost(CLI::App& app, int& status) {
                      "Panoramas, cubes or analytic maps, as `sample --environment` takes them")
         ->required();
     command
-        ->add_option("-o,--output", options->folder, "Folder for index.html, cost.csv, cost.json")
+        ->add_option("-o,--output", options->folder,
+                     "Folder for index.html, cost.csv, lobes.csv, cost.json")
         ->required();
     command->add_option("--exponents", options->exponents, "Phong exponents, 0 to 1e7")
         ->capture_default_str();

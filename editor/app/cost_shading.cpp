@@ -7,6 +7,7 @@
 
 #include <epoxy/gl.h>
 
+#include "app/cost_table.h"
 #include "lighting/lookup.h"
 #include "scene/gpu_scene.h"
 #include "scene/programs.h"
@@ -156,6 +157,17 @@ core::Result<double> CostShading::timed(const gl::Defines& defines, double expon
 
 core::Result<double> CostShading::milliseconds(double exponent, int repeats) {
     return timed(definesFor(lookup_), exponent, repeats);
+}
+
+core::Result<double> CostShading::lobeMilliseconds(lighting::LobeForm lobes,
+                                                   lighting::FresnelForm fresnel, double exponent,
+                                                   int repeats) {
+    return timed({{"LODESTAR_COST_LOOKUP", "5"},
+                  {"LODESTAR_COST_LIGHTS", std::to_string(kCostedLights)},
+                  {"LODESTAR_RSRM_LIGHTS", "0"},
+                  {"LODESTAR_LOBES", lobes == lighting::LobeForm::Sg ? "1" : "0"},
+                  {"LODESTAR_FRESNEL", fresnel == lighting::FresnelForm::Sg ? "1" : "0"}},
+                 exponent, repeats);
 }
 
 core::Result<double> CostShading::emptyMilliseconds(int repeats) {

@@ -32,6 +32,10 @@ public:
     /// Milliseconds a megapixel of a tile shaded by what was prepared last: the least of a few
     /// repeats. @param exponent Blinn-Phong  @errors Internal (a shader that the driver refuses)
     [[nodiscard]] core::Result<double> milliseconds(double exponent, int repeats);
+    /// The same of a tile lit directly by kCostedLights lights. @pre prepare
+    [[nodiscard]] core::Result<double> lobeMilliseconds(lighting::LobeForm lobes,
+                                                        lighting::FresnelForm fresnel,
+                                                        double exponent, int repeats);
     /// The same of a tile without a lookup.
     [[nodiscard]] core::Result<double> emptyMilliseconds(int repeats);
 

@@ -60,6 +60,17 @@ std::string costCsv(const CostTable& table) {
     return text.str();
 }
 
+std::string lobesCsv(const CostTable& table) {
+    std::ostringstream text;
+    text << "lobes,fresnel,exponent,rmse,worst,shading_ms_per_megapixel\n";
+    for (const CostLobe& row : table.lobes) {
+        text << row.lobes << ',' << row.fresnel << ',' << number(row.exponent).dump() << ','
+             << number(row.rmse).dump() << ',' << number(row.worst).dump() << ','
+             << number(row.shadingMs).dump() << '\n';
+    }
+    return text.str();
+}
+
 nlohmann::ordered_json costJson(const CostTable& table) {
     nlohmann::ordered_json json;
     json["renderer"] = table.renderer;
@@ -87,6 +98,15 @@ nlohmann::ordered_json costJson(const CostTable& table) {
                                         {"estimator", made.estimator},
                                         {"ms", made.ms},
                                         {"texture_bytes", made.bytes}});
+    }
+    json["lobes"] = nlohmann::ordered_json::array();
+    for (const CostLobe& row : table.lobes) {
+        json["lobes"].push_back({{"lobes", row.lobes},
+                                 {"fresnel", row.fresnel},
+                                 {"exponent", row.exponent},
+                                 {"rmse", number(row.rmse)},
+                                 {"worst", number(row.worst)},
+                                 {"shading_ms_per_megapixel", number(row.shadingMs)}});
     }
     return json;
 }

@@ -40,6 +40,18 @@ struct CostPicture {
     core::Image errors; ///< 1 channel; up is +Y, the middle -Z
 };
 
+/// Direct light by a form of its lobe and one of Fresnel's reflectance.
+struct CostLobe {
+    std::string lobes, fresnel; ///< lighting::nameOf
+    double exponent = 0.0;      ///< Blinn-Phong
+    double rmse = 0.0;          ///< LobeErrors
+    double worst = 0.0;         ///< the same
+    double shadingMs = 0.0;     ///< milliseconds a megapixel under kCostedLights lights
+};
+
+/// The lights under which direct light is timed.
+inline constexpr int kCostedLights = 16;
+
 /// The difference that is lightest in these pictures.
 inline constexpr double kPictureMost = 0.5;
 
@@ -53,6 +65,7 @@ struct CostTable {
     std::vector<CostRow> rows;
     std::vector<CostPreparation> preparations;
     std::vector<CostPicture> pictures;
+    std::vector<CostLobe> lobes;
 };
 
 /// Marks the rows that no other of the same map, term and exponent beats: faster or as fast and at
@@ -60,6 +73,7 @@ struct CostTable {
 void markFront(std::vector<CostRow>& rows);
 
 [[nodiscard]] std::string costCsv(const CostTable& table);
+[[nodiscard]] std::string lobesCsv(const CostTable& table);
 [[nodiscard]] nlohmann::ordered_json costJson(const CostTable& table);
 
 } // namespace lodestar::app

@@ -173,4 +173,22 @@ core::Result<void> writeEstimators(const std::filesystem::path& folder) {
     return writer.write(folder);
 }
 
+core::Result<void> writeLamps(const std::filesystem::path& folder) {
+    GltfWriter writer("lamps");
+    int column = 0;
+    for (const int exponent : {1, 4, 16, 64, 256}) {
+        const std::string label = "exponent " + std::to_string(exponent);
+        const int material =
+            writer.addBlinnPhong(label, {0.02f, 0.03f, 0.05f}, glm::vec3(0.04f), exponent);
+        const int mesh = column == 0 ? writer.addMesh(label, sphere(0.47f, 128, 64), material)
+                                     : writer.addMeshLike(label, 0, material);
+        writer.addNode(label, mesh, {static_cast<float>(column++) - 2.0f, 0.0f, 0.0f});
+    }
+    // Far away, so that all are lit alike: one from before, one past the right rims.
+    writer.addPointLight("before", {-120.0f, 120.0f, 240.0f}, glm::vec3(1.0f), 9e5f, 1e5f);
+    writer.addPointLight("behind", {260.0f, 40.0f, -120.0f}, {1.0f, 0.75f, 0.5f}, 3e5f, 1e5f);
+    writer.addCamera("row", {0.0f, 0.0f, 20.0f}, glm::vec3(0.0f), fovFor(1.0f, 20.0f));
+    return writer.write(folder);
+}
+
 } // namespace lodestar::samples

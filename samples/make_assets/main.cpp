@@ -31,8 +31,9 @@ core::Result<void> writePanoramas(const std::filesystem::path& folder) {
 
 core::Result<void> writeAll(const std::filesystem::path& folder) {
     using Writer = core::Result<void> (*)(const std::filesystem::path&);
-    for (const Writer write : {&writePanoramas, &writeFigure1, &writeFigure2, &writeFigure3,
-                               &writeAshikhmin, &writeEstimators, &writeTerrace, &writeLift}) {
+    for (const Writer write :
+         {&writePanoramas, &writeFigure1, &writeFigure2, &writeFigure3, &writeAshikhmin,
+          &writeEstimators, &writeLamps, &writeTerrace, &writeLift}) {
         if (core::Result<void> written = write(folder); !written) {
             return written;
         }

@@ -24,6 +24,9 @@ namespace lodestar::samples {
 /// Five spheres of exponents 2 to 2048, to compare estimators.
 [[nodiscard]] core::Result<void> writeEstimators(const std::filesystem::path& folder);
 
+/// Five dark spheres of exponents 1 to 256 under two lamps, to compare forms of the lobe.
+[[nodiscard]] core::Result<void> writeLamps(const std::filesystem::path& folder);
+
 /// A still life on a terrace; cameras "terrace", "table" and "steps".
 [[nodiscard]] core::Result<void> writeTerrace(const std::filesystem::path& folder);
 

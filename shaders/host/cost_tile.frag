@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // A tile of balls on which one lookup alone is shaded, to be timed.
-//   LODESTAR_COST_LOOKUP  0 nothing, 1 glossy, 2 diffuse, 3 glossy of a map, 4 diffuse of a map
+//   LODESTAR_COST_LOOKUP  0 nothing, 1 glossy, 2 diffuse, 3 glossy of a map, 4 diffuse of a map,
+//                         5 direct light of LODESTAR_COST_LIGHTS lights
 #include "host/blocks.glsl"
 #include "lodestar/sh9.glsl"
 #include "lodestar/environment.glsl"
@@ -49,6 +50,14 @@ void main() {
     radiance = lodestar_rsrm(map, lookup.direction, lodestar_rsrmRow(map, lookup.exponent));
 #elif LODESTAR_COST_LOOKUP == 4
     radiance = lodestar_rsrmLambert(rsrmLight(0), surface.normal);
+#elif LODESTAR_COST_LOOKUP == 5
+    radiance = vec3(0.0);
+    vec3 light = vec3(uTile.y / (uTile.y + 1.0), 0.3, 1.0); // known to no compiler
+    for (int i = 0; i < LODESTAR_COST_LIGHTS; ++i) {
+        radiance += lodestar_directReflectanceBy(surface.normal, surface.view, normalize(light), surface.diffuse,
+                                                 surface.f0, surface.exponent, LODESTAR_LOBES, LODESTAR_FRESNEL);
+        light = vec3(light.yx * vec2(0.8, -0.8), 1.0);
+    }
 #endif
     oRadiance = vec4(radiance, 1.0);
 }

@@ -54,6 +54,23 @@ std::vector<std::string> call(const std::string& folder, const std::string& envi
             "64",   "--exponents", "4,64", "--repeats", "1",       "--no-plots"};
 }
 
+// Direct light by each form: powers differ from themselves by rounding alone; Gaussians by .034 of
+// the peak at 4 and .0024 at 64 (docs/derivations/sg.md), which n.l and F, varying, change to no
+// more than twice and no less than half that; Fresnel's by up to 6.9 % of F at F0 = .04.
+void expectFormsOfDirectLight(const nlohmann::json& rows) {
+    EXPECT_EQ(rows.size(), 8u);
+    for (const nlohmann::json& row : rows) {
+        const double worst = row.at("worst");
+        const double lobe = row.at("lobes") == "power"  ? 0.0
+                            : row.at("exponent") > 10.0 ? .0024
+                                                        : .034;
+        const double fresnel = row.at("fresnel") == "sg" ? .069 : 0.0;
+        EXPECT_LT(worst, 2.0 * lobe + fresnel + 1e-5) << row;
+        EXPECT_GE(worst, fresnel > 0.0 ? 0.5 * fresnel : 0.5 * lobe) << row;
+        EXPECT_GT(row.at("shading_ms_per_megapixel").get<double>(), 0.0) << row;
+    }
+}
+
 // On a constant map every estimator is right: half floats keep a radiance of .25 exactly.
 TEST(Cost, NothingIsWrongOnAConstantMap) {
     const TemporaryFolder folder;
@@ -67,6 +84,10 @@ TEST(Cost, NothingIsWrongOnAConstantMap) {
         EXPECT_GT(row.at("shading_ms_per_megapixel").get<double>(), 0.0) << row;
     }
     EXPECT_GT(json.at("preparations").size(), 5u);
+    expectFormsOfDirectLight(json.at("lobes"));
+    EXPECT_EQ(rowsOf(textOf(folder.file("cost/lobes.csv"))).size(), 8u);
+    EXPECT_NE(textOf(folder.file("cost/index.html")).find("Forms of direct light"),
+              std::string::npos);
 }
 
 // A lamp of 10 degrees: `tent` is right where `mip`, whose boxes shift it, is not; a map of the
