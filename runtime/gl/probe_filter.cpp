@@ -94,9 +94,9 @@ core::Result<void> ProbeFilter::measureHalfStep() {
     return {};
 }
 
-core::Result<ProbeFilter::Pass> ProbeFilter::makePass(const char* fragment,
-                                                      const char* vertex) const {
-    auto made = Program::make(*device_, vertex, fragment, {});
+core::Result<ProbeFilter::Pass> ProbeFilter::makePass(const char* fragment, const char* vertex,
+                                                      const Defines& defines) const {
+    auto made = Program::make(*device_, vertex, fragment, defines);
     if (!made) {
         return made.error();
     }
@@ -122,15 +122,23 @@ core::Result<void> ProbeFilter::makePasses() {
         Pass ProbeFilter::*pass;
         const char* fragment;
         const char* vertex = "host/probe_screen.vert";
+        Defines defines = {};
     };
     const Wanted wanted[] = {
-        {&ProbeFilter::tent_, "host/probe_tent.frag"},
+        {&ProbeFilter::tent_,
+         "host/probe_tent.frag",
+         "host/probe_screen.vert",
+         {{"LODESTAR_ODD", "0"}}},
+        {&ProbeFilter::oddTent_,
+         "host/probe_tent.frag",
+         "host/probe_screen.vert",
+         {{"LODESTAR_ODD", "1"}}},
         {&ProbeFilter::round_, "host/probe_round.frag"},
         {&ProbeFilter::sh9_, "host/probe_sh9.frag"},
         {&ProbeFilter::irradiance_, "host/probe_irradiance.frag", "host/probe_irradiance.vert"},
     };
     for (const Wanted& one : wanted) {
-        auto pass = makePass(one.fragment, one.vertex);
+        auto pass = makePass(one.fragment, one.vertex, one.defines);
         if (!pass) {
             return pass.error();
         }
@@ -181,8 +189,9 @@ ProbeFilter::ProbeFilter(ProbeFilter&& other) noexcept {
 
 ProbeFilter& ProbeFilter::operator=(ProbeFilter&& other) noexcept {
     std::swap(device_, other.device_);
-    for (Pass ProbeFilter::*pass : {&ProbeFilter::tent_, &ProbeFilter::round_, &ProbeFilter::sh9_,
-                                    &ProbeFilter::irradiance_}) {
+    for (Pass ProbeFilter::*pass :
+         {&ProbeFilter::tent_, &ProbeFilter::oddTent_, &ProbeFilter::round_, &ProbeFilter::sh9_,
+          &ProbeFilter::irradiance_}) {
         std::swap(this->*pass, other.*pass);
     }
     std::swap(halfStep_, other.halfStep_);
@@ -222,8 +231,9 @@ void ProbeFilter::beginLevel(const Texture& cube, int level) {
 void ProbeFilter::tent(const Texture& cube, int level) {
     cube.showLevels(level - 1, level - 1);
     beginLevel(cube, level);
-    tent_.program.use();
-    glUniform2f(tent_.uniform, static_cast<float>(widthOf(cube, level)),
+    const Pass& pass = widthOf(cube, level - 1) % 2 == 0 ? tent_ : oddTent_;
+    pass.program.use();
+    glUniform2f(pass.uniform, static_cast<float>(widthOf(cube, level)),
                 static_cast<float>(widthOf(cube, level - 1)));
     drawFullScreen(*device_);
 }
@@ -323,9 +333,10 @@ void ProbeFilter::fillIrradiance(const Texture& cube, int level, IrradianceAtlas
     ++device_->counters().passes;
     sh9_.program.use();
     const int width = widthOf(cube, level);
-    const bool even = width % 2 == 0;
-    glUniform2f(sh9_.uniform, static_cast<float>(even ? width / 2 : width),
-                even ? 1.0f / static_cast<float>(width) : 0.0f);
+    // Four texels of a narrow level are too far apart to be read as one.
+    const bool paired = width % 2 == 0 && width > lighting::kWidestRound;
+    glUniform2f(sh9_.uniform, static_cast<float>(paired ? width / 2 : width),
+                paired ? 1.0f / static_cast<float>(width) : 0.0f);
     drawFullScreen(*device_);
     atlas.begin(tile);
     parts_.bind(kTableUnit);

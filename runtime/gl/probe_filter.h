@@ -44,7 +44,8 @@ private:
         int endRow = 0;
     };
     [[nodiscard]] core::Result<void> measureHalfStep();
-    [[nodiscard]] core::Result<Pass> makePass(const char* fragment, const char* vertex) const;
+    [[nodiscard]] core::Result<Pass> makePass(const char* fragment, const char* vertex,
+                                              const Defines& defines) const;
     [[nodiscard]] core::Result<void> makePasses();
     void beginLevel(const Texture& cube, int level);
     void begin(const Texture& cube);
@@ -57,7 +58,7 @@ private:
     void fillIrradiance(const Texture& cube, int level, IrradianceAtlas& atlas, int tile);
 
     Device* device_ = nullptr;
-    Pass tent_, round_, sh9_, irradiance_;
+    Pass tent_, oddTent_, round_, sh9_, irradiance_;
     unsigned halfStep_ = 0;
     VertexArray fullScreen_;
     unsigned faces_ = 0;                  ///< framebuffer of a level's six faces

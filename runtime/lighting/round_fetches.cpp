@@ -85,9 +85,12 @@ struct Patch {
 };
 
 /// The first and last texels of patches along a side, the same from either end: pairs, and in the
-/// middle of an odd side one or three alone.
+/// middle of an odd side one or three alone. Texels of a face of 7 or fewer are too far apart for
+/// products: all alone.
 std::vector<std::pair<int, int>> pairsOf(int width) {
-    const int paired = width % 2 == 0 ? width / 2 : 2 * ((width - 1) / 4); // from either end
+    constexpr int kAlone = 7;
+    const int even = width % 2 == 0 ? width / 2 : 2 * ((width - 1) / 4);
+    const int paired = width > kAlone ? even : 0; // from either end
     std::vector<std::pair<int, int>> pairs;
     for (int i = 0; i < width;) {
         const bool alone = i >= paired && i < width - paired;

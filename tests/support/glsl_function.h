@@ -26,6 +26,8 @@ public:
     [[nodiscard]] static core::Result<GlslFunction>
     make(gl::Device& device, int version, const std::string& text, const std::string& expression);
 
+    /// Gives a sampler of the text its texture unit, which is not 0.
+    void setSampler(const char* name, int unit) const { program_.setSampler(name, unit); }
     /// The expression's value for each case. @pre 1 to 4096 cases
     [[nodiscard]] std::vector<glm::vec4> evaluate(const std::vector<GlslCase>& cases);
 
