@@ -331,6 +331,7 @@ void ProbeFilter::fillIrradiance(const Texture& cube, int level, IrradianceAtlas
     glBindFramebuffer(GL_FRAMEBUFFER, sums_);
     glViewport(0, 0, kPartsSide, kPartsSide);
     ++device_->counters().passes;
+    device_->counters().texelsWritten += std::uint64_t{kPartsSide * kPartsSide * kPartColors};
     sh9_.program.use();
     const int width = widthOf(cube, level);
     // Four texels of a narrow level are too far apart to be read as one.

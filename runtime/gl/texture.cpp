@@ -259,6 +259,12 @@ core::Result<Texture> Texture::makeCubeTarget(Device& device, int width, int lev
     return texture;
 }
 
+void Texture::readNearest(bool nearest) const {
+    glBindTexture(target_, id_);
+    glTexParameteri(target_, GL_TEXTURE_MAG_FILTER, nearest ? GL_NEAREST : GL_LINEAR);
+    glTexParameteri(target_, GL_TEXTURE_MIN_FILTER, nearest ? GL_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
+}
+
 void Texture::showLevels(int first, int last) const {
     glBindTexture(target_, id_);
     glTexParameteri(target_, GL_TEXTURE_BASE_LEVEL, first);

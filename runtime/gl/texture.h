@@ -99,6 +99,9 @@ public:
     void bind(int unit) const;
     /// Lets lookups see a range of levels alone. @pre a cube target
     void showLevels(int first, int last) const;
+    /// Fetches read the nearest texel from now on, or between texels and levels, as a cube is made.
+    /// Leaves it bound to the unit that is active. @pre a cube
+    void readNearest(bool nearest) const;
 
 private:
     Texture(Device& device, unsigned target);

@@ -15,7 +15,7 @@ constexpr double kMaxExponent = 1e7;
 
 /// A value brought into [low, high], counted where it was not.
 float within(double value, double low, double high, const char* rule, core::Tally& warnings) {
-    const double repaired = std::clamp(value, low, high);
+    const double repaired = value >= low ? std::min(value, high) : low; // NaN too
     warnings.add(rule, repaired == value ? 0 : 1);
     return static_cast<float>(repaired);
 }

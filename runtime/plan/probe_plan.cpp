@@ -92,6 +92,12 @@ std::uint64_t faceTexels(const ProbeView& probe) {
     return width * width;
 }
 
+/// What gl/probe_filter.h writes for irradiance: 16 parts of seven colours, then a tile.
+constexpr std::uint64_t kPartTexels = 16 * 7;
+constexpr std::uint64_t kTileTexels = 25 * 25;
+/// The rows of a tile that tell of suns.
+constexpr std::uint64_t kSunTexels = 25 * 2;
+
 /// What gl/probe_filter.h does for levels 1 to a last one: a pass each.
 Cost mipCost(const ProbeView& probe, int last) {
     Cost cost;
@@ -273,7 +279,7 @@ private:
                                             : "composed again: what it lights now reads more of it";
         // And one for what it sees of suns.
         const std::uint64_t suns = input_.rsrmLights.empty() ? 0 : 1;
-        compose.cost = {6 + suns, 6 + suns, 6 * faceTexels(probe) + suns * 26 * 2, 0};
+        compose.cost = {6 + suns, 6 + suns, 6 * faceTexels(probe) + suns * kSunTexels, 0};
         result_.effects.push_back(std::move(compose));
         if (work.lastLevel > 0) {
             Effect mips{"probe-mips", probe.subject, Decision::Run, {}, {}};
@@ -290,7 +296,7 @@ private:
                                        probe.subject,
                                        Decision::Run,
                                        "visible diffuse surfaces are lit by it",
-                                       {2, 2, 25 * 25, 0}});
+                                       {2, 2, kPartTexels + kTileTexels, 0}});
         }
     }
 

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <chrono>
 
 #include "lighting/drawn_texels.h"
 #include "lighting/lookup.h"
 #include "lighting/mips.h"
+#include "plan/state_hash.h"
 #include "scene/gpu_scene.h"
 
 namespace lodestar::scene {
@@ -18,10 +20,14 @@ GpuEnvironment::GpuEnvironment(std::string source, lighting::Cubemap base)
     : source_(std::move(source)), base_(std::move(base)) {
     if (!base_.empty()) {
         mean_ = glm::dvec3(lighting::sphereMean(base_, 0));
+        plan::StateHash content;
         for (const glm::vec4& texel : base_.level(0)) {
+            content.fold(std::bit_cast<std::uint64_t>(glm::vec2(texel.r, texel.g)));
+            content.fold(std::uint64_t{std::bit_cast<std::uint32_t>(texel.b)});
             brightest_ =
                 std::max(brightest_, static_cast<double>(std::max({texel.r, texel.g, texel.b})));
         }
+        content_ = content.value();
     }
 }
 

@@ -26,6 +26,8 @@ public:
     /// Mean radiance over the sphere, and the greatest.
     [[nodiscard]] const glm::dvec3& mean() const { return mean_; }
     [[nodiscard]] double brightest() const { return brightest_; }
+    /// Tells maps apart by their texels, one value in 2^64 aside.
+    [[nodiscard]] std::uint64_t content() const { return content_; }
 
     /// What errors the estimators will make on it, measured on another thread from the first call
     /// on; null until they are. @param wait until they are
@@ -55,6 +57,7 @@ private:
     lighting::Cubemap base_;
     glm::dvec3 mean_{0.0};
     double brightest_ = 0.0;
+    std::uint64_t content_ = 0;
     std::shared_future<lighting::ErrorForecast> forecast_;
     lighting::PreparedParts prepared_;
     lighting::Sh9Coefficients sh9_{};

@@ -192,6 +192,7 @@ void GpuProbes::compose(const plan::ProbeWork& work, const gl::Program& program,
     glUniform1f(program.uniform("uCapturedScale"),
                 fromFile ? cubes.captured.scale() * written_ : 1.0f);
     cubes.captured.bind(kFirstProbeUnit);
+    cubes.captured.readNearest(true);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glDepthMask(GL_FALSE);
@@ -205,6 +206,7 @@ void GpuProbes::compose(const plan::ProbeWork& work, const gl::Program& program,
         gl::drawFullScreen(*device_);
     }
     glDisable(GL_BLEND);
+    cubes.captured.readNearest(false);
 }
 
 /// @pre what was captured is bound

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lighting/gradient.h"
 #include "plan/state_hash.h"
 
 namespace lodestar::scene {
@@ -15,9 +16,7 @@ plan::LightState lightState(const GpuEnvironment& environment, GpuLights& lights
     const glm::dvec3 mean = shown ? environment.mean() : glm::dvec3(0.0);
     state.sources.push_back(plan::along(mean, up));
     plan::StateHash sky;
-    for (int c = 0; c < 3; ++c) {
-        sky.fold(mean[c]);
-    }
+    sky.fold(shown ? environment.content() : std::uint64_t{0});
     for (std::size_t i = 0; i < lights.count(); ++i) {
         state.sources.push_back(plan::along(lights.facingIrradiance(i), lights.axis(i)));
         // Which suns are up numbers those that are.
@@ -47,10 +46,25 @@ float writtenFactor(const Scene& scene, const GpuEnvironment& environment,
                              static_cast<double>(material.emissive.g),
                              static_cast<double>(material.emissive.b)});
     }
+    emissive = std::min(emissive, lighting::kMaxRadiance);
     const double brightest = environment.brightest() + lights.brightest() + emissive;
     constexpr double kHalfOfGreatestHalf = 32768.0;
     const double octaves = std::ceil(std::log2(std::max(brightest / kHalfOfGreatestHalf, 1.0)));
     return static_cast<float>(std::exp2(-octaves));
+}
+
+std::uint64_t brokenEmissions(const Scene& scene) {
+    const auto broken = [](const io::GltfMaterial& material) {
+        for (int c = 0; c < 3; ++c) {
+            const auto emission = static_cast<double>(material.emissive[c]);
+            if (!(emission >= 0.0 && emission <= lighting::kMaxRadiance)) {
+                return true;
+            }
+        }
+        return false;
+    };
+    return static_cast<std::uint64_t>(
+        std::count_if(scene.materials.begin(), scene.materials.end(), broken));
 }
 
 plan::EnvironmentView beside(plan::EnvironmentView environment, const GpuLights& lights) {

@@ -20,6 +20,10 @@ namespace lodestar::scene {
 [[nodiscard]] float writtenFactor(const Scene& scene, const GpuEnvironment& environment,
                                   const GpuLights& lights);
 
+/// Materials whose emission is not in [0, 1e9]. Light probes show NaN and what is negative as 0,
+/// and cut what is more at what half floats hold.
+[[nodiscard]] std::uint64_t brokenEmissions(const Scene& scene);
+
 /// An environment beside lights: a sky that is not added stands in its place.
 [[nodiscard]] plan::EnvironmentView beside(plan::EnvironmentView environment,
                                            const GpuLights& lights);

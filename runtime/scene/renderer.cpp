@@ -212,6 +212,10 @@ core::Result<std::unique_ptr<Renderer>> Renderer::make(gl::Device& device, const
     }
     auto state =
         std::make_unique<State>(device, scene, std::move(*uploaded), std::move(*deformation));
+    if (!state->observer.empty()) {
+        state->probeWarnings.add("material's emission outside [0, 1e9], repaired in light probes",
+                                 brokenEmissions(scene));
+    }
     return std::unique_ptr<Renderer>(new Renderer(std::move(state)));
 }
 

@@ -23,7 +23,7 @@ using glm::vec4;
 #define LODESTAR_MAX_LIGHTS 16
 #define LODESTAR_MAX_RSRM_LIGHTS 32
 #define LODESTAR_MAX_SHADOWS 4
-// A light probe's tile has 26 texels of irradiance a side; two rows beneath it tell of suns.
+// A light probe's tile has 25 texels of irradiance a side; two rows beneath it tell of suns.
 #define LODESTAR_SUN_TEXELS 25
 #define LODESTAR_SUN_ROWS 2
 #define LODESTAR_MATERIAL_TEXTURES 8

@@ -83,6 +83,16 @@ vec3 rsrmLights(LodestarSurface here) {
 }
 #endif
 
+/// Radiance as it is written. What is not a number stays so, whatever the driver's min does, to be
+/// repaired and counted by who reads it.
+vec4 writtenAs(vec3 radiance, float coverage) {
+    vec3 light = radiance * coverage * written.x;
+    for (int c = 0; c < 3; ++c) {
+        light[c] = isnan(light[c]) ? light[c] : min(light[c], written.y);
+    }
+    return vec4(light, coverage);
+}
+
 void main() {
     vec4 color = baseColorHere();
 #if LODESTAR_ALPHA_MASK
@@ -94,7 +104,7 @@ void main() {
     color.a = 1.0;
 #endif
 #if LODESTAR_UNLIT
-    oRadiance = vec4(min(color.rgb * color.a * written.x, vec3(written.y)), color.a);
+    oRadiance = writtenAs(color.rgb, color.a);
 #else
     vec3 view = lodestar_safeNormalize(cameraPosition.xyz - cameraPosition.w * vPosition, vec3(0.0, 0.0, 1.0));
     LodestarSurface here = surfaceHere(view, color);
@@ -128,6 +138,6 @@ void main() {
 #if LODESTAR_PUNCTUAL_LIGHTS
     radiance += punctualLights(here);
 #endif
-    oRadiance = vec4(min(radiance * color.a * written.x, vec3(written.y)), color.a);
+    oRadiance = writtenAs(radiance, color.a);
 #endif
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // A texel of a light probe's level 0: what was captured, premultiplied by its coverage, before the
-// distant environment and the skies. Suns are no part of it: they light by themselves.
+// distant environment and the skies. Suns are no part of it: they light by themselves. What was
+// captured is repaired, channel by channel: NaN and what is negative give no light, what is infinite the
+// greatest that is held; its coverage keeps the sky out all the same.
 #include "host/probe_half.glsl"
 #include "host/blocks.glsl"
 #include "lodestar/cube.glsl"
@@ -14,20 +16,23 @@
 #if LODESTAR_ENVIRONMENT
 uniform samplerCube uEnvironment;
 #endif
-uniform samplerCube uFirstProbe; ///< what was captured
+uniform samplerCube uFirstProbe; ///< what was captured; read texel by texel, or a broken one spreads
 uniform int uFace;
 uniform float uWidth;         ///< of a face, texels
 uniform float uCapturedScale; ///< of what was captured, to radiance as it is written
 
 layout(location = 0) out vec4 oRadiance;
 
+float repaired(float captured) {
+    return captured > 0.0 && !isnan(captured) ? min(captured * uCapturedScale, written.y) : 0.0;
+}
+
 void main() {
     vec2 at = gl_FragCoord.xy * (2.0 / uWidth) - 1.0;
     vec3 direction = lodestar_cubeDirection(uFace, at.x, at.y);
     vec4 captured = textureLod(uFirstProbe, direction, 0.0);
-    if (any(isnan(captured)) || any(isinf(captured))) {
-        captured = vec4(0.0);
-    }
+    vec3 light = vec3(repaired(captured.r), repaired(captured.g), repaired(captured.b));
+    float coverage = isnan(captured.a) ? 1.0 : clamp(captured.a, 0.0, 1.0);
     vec3 sky = vec3(0.0);
 #if LODESTAR_ENVIRONMENT
     float level = max(log2(environmentCube.x / uWidth), 0.0);
@@ -42,5 +47,5 @@ void main() {
     }
 #endif
     vec3 open = min(sky * written.x, vec3(written.y));
-    oRadiance = nearestHalf(vec4(captured.rgb * uCapturedScale + (1.0 - captured.a) * open, 1.0));
+    oRadiance = nearestHalf(vec4(min(light + (1.0 - coverage) * open, vec3(written.y)), 1.0));
 }
