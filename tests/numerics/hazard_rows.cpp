@@ -4,9 +4,11 @@
 #include <limits>
 
 #include "lodestar/cube.glsl"
+#include "lodestar/display.glsl"
 #include "lodestar/lobes.glsl"
 #include "lodestar/power.glsl"
 #include "lodestar/rsrm.glsl"
+#include "lodestar/sg.glsl"
 #include "lodestar/sh9.glsl"
 #include "lodestar/taps.glsl"
 

@@ -78,6 +78,10 @@ plant "a texel's size the wrong way" cube.glsl '0.75f * log2(dot(p, p))' '-0.75f
 plant "ringing not clamped" sh9.glsl 'max(linear + quadratic, vec3(0.0f))' 'linear + quadratic'
 plant "a chord not halved" rsrm.glsl '0.5f * sqrt(dot(chord, chord))' 'sqrt(dot(chord, chord))'
 plant "occlusion twice" environment.glsl 'fresnel * glossy *' 'fresnel * glossy + lambert *'
+plant "a Gaussian of the exponent doubled" sg.glsl 'lodestar_repairExponent(exponent) + rise' '2.0f * lodestar_repairExponent(exponent) + rise'
+plant "a Gaussian's integral with its cancellation" sg.glsl 'lodestar_oneMinusExp(2.0f * l)' '(1.0f - exp(-2.0f * l))'
+plant "a Gaussian's series left out" sg.glsl 'l < least ?' 'l < 0.0f ?'
+plant "a product by its lengths" sg.glsl 'exp(-la * lb * min(dot(chord, chord), Real(4.0f)) /' 'exp(product.sharpness - la - lb + 0.0f * min(dot(chord, chord), Real(4.0f)) /'
 plant "parallax from the wrong end" probes.glsl '+ t * direction - captured' '- t * direction - captured'
 wait
 wrong=0
