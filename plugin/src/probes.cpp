@@ -23,6 +23,8 @@ constexpr int kWidest = 2048;
 /// Levels of tents are wider; coarser ones are means over round lobes, too blunt for irradiance.
 constexpr int kWidestRound = 16;
 constexpr double kGreatest = 1e9;
+/// Texels of a face of irradiance: odd, so that normals along the axes lie on texels' centres.
+constexpr int kIrradianceWidth = 17;
 
 core::Error refusal(const char* what, const std::string& where) {
     return core::refused(what, where);
@@ -128,11 +130,11 @@ lighting::Cubemap irradianceOf(const lighting::Cubemap& chain) {
     lighting::Cubemap source(chain.width(level));
     source.level(0) = chain.level(level);
     const lighting::Sh9Coefficients c = lighting::sh9FromCube(source);
-    lighting::Cubemap result(lighting::kIrradianceWidth);
-    const float step = 2.0f / static_cast<float>(lighting::kIrradianceWidth);
+    lighting::Cubemap result(kIrradianceWidth);
+    const float step = 2.0f / static_cast<float>(kIrradianceWidth);
     for (int face = 0; face < 6; ++face) {
-        for (int y = 0; y < lighting::kIrradianceWidth; ++y) {
-            for (int x = 0; x < lighting::kIrradianceWidth; ++x) {
+        for (int y = 0; y < kIrradianceWidth; ++y) {
+            for (int x = 0; x < kIrradianceWidth; ++x) {
                 const glm::vec3 n = glm::normalize(shader::lodestar_cubeDirection(
                     face, (static_cast<float>(x) + 0.5f) * step - 1.0f,
                     (static_cast<float>(y) + 0.5f) * step - 1.0f));

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// A room with a light probe, drawn by OpenSceneGraph and by the built-in renderer, and what their
-// pictures may differ by.
+// A room with a light probe, drawn by OpenSceneGraph and by the built-in renderer, and the gate
+// that their pictures pass.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <string>
 
-#include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/type_ptr.hpp>
-#include <glm/trigonometric.hpp>
-
 #include "host_pictures.h"
-#include "lodestar/display.glsl"
 #include "support/probe_world.h"
 
 namespace lodestar::testing {
@@ -23,7 +16,8 @@ namespace lodestar::testing {
 struct Room {
     bool window = true;           ///< the wall towards +Z is left out
     bool mirror = true;           ///< a panel on the back wall
-    bool ball = false;            ///< polished, not quite a mirror
+    bool ball = false;            ///< that shines
+    double exponent = 300.0;      ///< the ball's
     bool block = false;           ///< of stone, to the right of the eye
     unsigned layers = 0xffffffff; ///< of the block
 };
@@ -65,7 +59,7 @@ inline std::string room(const TemporaryFolder& folder, const Room& with) {
     }
     if (with.ball) {
         file.show(
-            {file.primitive(sphere(48, 96), polished(0.5, 300))},
+            {file.primitive(sphere(48, 96), polished(0.5, with.exponent))},
             {{"name", "ball"}, {"translation", {0, 0.75, -0.5}}, {"scale", {0.75, 0.75, 0.75}}});
     }
     return file.write(folder).string();
@@ -87,12 +81,6 @@ inline constexpr const char* kRoom = R"({"name": "room", "position": [0.3, 1.6, 
     "proxy": {"shape": "box", "center": [-0.3, -0.1, -0.6], "size": [4, 3, 4]}})";
 
 inline constexpr const char* kInside = " --eye 0,1.5,1.75 --target 0,1.5,-1 --fov 75";
-/// The same.
-inline glm::mat4 clipFromRoom() {
-    return glm::perspective(glm::radians(75.0f), 2.0f, 0.1f, 100.0f) *
-           glm::lookAt(glm::vec3(0.0f, 1.5f, 1.75f), glm::vec3(0.0f, 1.5f, -1.0f),
-                       glm::vec3(0.0f, 1.0f, 0.0f));
-}
 
 inline core::Image byOsg(const TemporaryFolder& folder, const std::string& scene,
                          const std::string& light, const char* view = kInside) {
@@ -104,66 +92,13 @@ inline core::Image byUs(const TemporaryFolder& folder, const std::string& scene,
                  "9", view);
 }
 
-/// A part of a picture whose radiance two renderers may have otherwise.
-struct Loose {
-    glm::vec2 low{0.0f}, high{0.0f}; ///< pixels, row 0 at the top
-    float radiance = 0.0f;           ///< by so much
-
-    Loose() = default;
-    /// Where a box of the room is seen, half a pixel about it too.
-    Loose(const glm::vec3& from, const glm::vec3& to, float by) : low(1e9f), radiance(by) {
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::vec4 clip =
-                clipFromRoom() * glm::vec4((corner & 1) != 0 ? to.x : from.x,
-                                           (corner & 2) != 0 ? to.y : from.y,
-                                           (corner & 4) != 0 ? to.z : from.z, 1.0f);
-            const glm::vec2 at(120.0f + 120.0f * clip.x / clip.w, 60.0f - 60.0f * clip.y / clip.w);
-            low = glm::min(low, at - 0.5f);
-            high = glm::max(high, at + 0.5f);
-        }
-    }
-    [[nodiscard]] bool holds(int x, int y) const {
-        const glm::vec2 p = glm::vec2(x, y) + 0.5f;
-        return p.x > low.x && p.x < high.x && p.y > low.y && p.y < high.y;
-    }
-};
-
-inline float displayed(float radiance) {
-    return shader::lodestar_srgbFromLinear(shader::lodestar_filmic(radiance));
-}
-
-/// How far what is displayed as `shown` may be from what differs by a radiance.
-inline float reach(float shown, float radiance) {
-    float low = 0.0f, high = 1e4f;
-    for (int i = 0; i < 40; ++i) {
-        const float middle = 0.5f * (low + high);
-        (displayed(middle) < shown ? low : high) = middle;
-    }
-    return std::max(displayed(high + radiance) - shown,
-                    shown - displayed(std::max(high - radiance, 0.0f)));
-}
-
-/// At most two steps of 8 bits but for a part, and there as much more as its radiance tells.
-inline bool near(const core::Image& a, const core::Image& b, const char* what,
-                 const Loose& loose = {}) {
+/// At most two steps of 8 bits, a twentieth of one in the mean.
+inline bool near(const core::Image& a, const core::Image& b, const char* what) {
+    EXPECT_FALSE(a.empty() || b.empty());
     const Difference d = compare(a, b, 2.5 / 255.0);
-    std::printf("%s: largest %.2f / 255, mean %.4f / 255, more than 2 at %.2f %%\n", what,
-                255.0 * d.largest, 255.0 * d.mean, 100.0 * d.failingFraction);
-    for (int y = 0; y < a.height(); ++y) {
-        for (int x = 0; x < a.width(); ++x) {
-            for (int c = 0; c < 3; ++c) {
-                const float shown = b.at(x, y)[c];
-                const float more = loose.holds(x, y) ? reach(shown, loose.radiance) : 0.0f;
-                if (std::abs(a.at(x, y)[c] - shown) > 2.5f / 255.0f + more) {
-                    std::printf("    %d %d: %.1f, %.1f / 255\n", x, y,
-                                255.0 * static_cast<double>(a.at(x, y)[c]),
-                                255.0 * static_cast<double>(shown));
-                    return false;
-                }
-            }
-        }
-    }
-    return true;
+    std::printf("%s: largest %.2f / 255, mean %.4f / 255\n", what, 255.0 * d.largest,
+                255.0 * d.mean);
+    return d.largest <= 2.5 / 255.0 && d.mean <= 0.05 / 255.0;
 }
 
 } // namespace lodestar::testing

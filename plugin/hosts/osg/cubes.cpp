@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "hosts/osg/cubes.h"
 
+#include <algorithm>
 #include <cstring>
 
+#include <osg/GLExtensions>
 #include <osg/Image>
+#include <osg/State>
 
 #include <glm/gtc/packing.hpp>
 
@@ -14,9 +17,66 @@
 namespace lodestar::osghost {
 namespace {
 
-void setCubeParameters(osg::TextureCubeMap& texture) {
+/// The images stand in the client's memory row by row, nothing between.
+void readTightly() {
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+}
+
+/// The six faces with their levels, once: they do not change.
+struct CubeUpload : osg::TextureCubeMap::SubloadCallback {
+    void load(const osg::TextureCubeMap& texture, osg::State& state) const override {
+        readTightly();
+        const int levels = static_cast<int>(texture.getImage(0)->getNumMipmapLevels());
+        const int width = texture.getImage(0)->s();
+        for (unsigned face = 0; face < 6; ++face) {
+            const osg::Image& image = *texture.getImage(face);
+            for (int level = 0; level < levels; ++level) {
+                const int side = std::max(width >> level, 1);
+                glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, level, GL_RGBA32F_ARB, side,
+                             side, 0, GL_RGBA, GL_FLOAT,
+                             image.getMipmapData(static_cast<unsigned>(level)));
+            }
+            texture.getModifiedCount(face, state.getContextID()) = image.getModifiedCount();
+        }
+        glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAX_LEVEL, levels - 1);
+        texture.getTextureObject(state.getContextID())
+            ->setAllocated(levels, GL_RGBA32F_ARB, width, width, 1, 0);
+    }
+    void subload(const osg::TextureCubeMap&, osg::State&) const override {}
+};
+
+struct ArrayUpload : osg::Texture2DArray::SubloadCallback {
+    void load(const osg::Texture2DArray& texture, osg::State& state) const override {
+        const int width = texture.getTextureWidth();
+        const int height = texture.getTextureHeight();
+        const int depth = texture.getTextureDepth();
+        state.get<osg::GLExtensions>()->glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA32F_ARB, width,
+                                                     height, depth, 0, GL_RGBA, GL_FLOAT, nullptr);
+        texture.getTextureObject(state.getContextID())
+            ->setAllocated(1, GL_RGBA32F_ARB, width, height, depth, 0);
+        subload(texture, state);
+    }
+    /// The layers that have changed.
+    void subload(const osg::Texture2DArray& texture, osg::State& state) const override {
+        readTightly();
+        for (unsigned layer = 0; layer < texture.getNumImages(); ++layer) {
+            const osg::Image& image = *texture.getImage(layer);
+            unsigned& shown = texture.getModifiedCount(layer, state.getContextID());
+            if (shown != image.getModifiedCount()) {
+                shown = image.getModifiedCount();
+                state.get<osg::GLExtensions>()->glTexSubImage3D(
+                    GL_TEXTURE_2D_ARRAY, 0, 0, 0, static_cast<int>(layer), image.s(), image.t(), 1,
+                    GL_RGBA, GL_FLOAT, image.data());
+            }
+        }
+    }
+};
+
+void setCubeParameters(osg::TextureCubeMap& texture, bool mipmapped) {
     texture.setInternalFormat(GL_RGBA32F_ARB);
-    texture.setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR_MIPMAP_LINEAR);
+    texture.setFilter(osg::Texture::MIN_FILTER,
+                      mipmapped ? osg::Texture::LINEAR_MIPMAP_LINEAR : osg::Texture::LINEAR);
     texture.setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
     for (const auto wrap : {osg::Texture::WRAP_S, osg::Texture::WRAP_T, osg::Texture::WRAP_R}) {
         texture.setWrap(wrap, osg::Texture::CLAMP_TO_EDGE);
@@ -81,11 +141,16 @@ osg::ref_ptr<osg::TextureCubeMap> cubeTexture(const LodestarCube& described,
         levels.push_back(described.half_floats != 0 ? floatsOfHalves(bytes) : floatsOf(bytes));
     }
     osg::ref_ptr<osg::TextureCubeMap> texture = new osg::TextureCubeMap;
-    setCubeParameters(*texture);
+    setCubeParameters(*texture, described.levels > 1);
     for (unsigned face = 0; face < 6; ++face) {
         texture->setImage(face, faceImage(levels, face, static_cast<int>(described.width)));
     }
+    texture->setSubloadCallback(new CubeUpload);
     return texture;
+}
+
+void uploadAlone(osg::Texture2DArray& texture) {
+    texture.setSubloadCallback(new ArrayUpload);
 }
 
 } // namespace lodestar::osghost

@@ -8,6 +8,7 @@
 #include <functional>
 #include <vector>
 
+#include <osg/Texture2DArray>
 #include <osg/TextureCubeMap>
 
 #include <lodestar/lodestar.h>
@@ -24,5 +25,10 @@ using ReadLevel = std::function<LodestarStatus(std::uint32_t level, void* bytes,
 /// A cube with its levels, filtered linearly. Null where a level is refused.
 [[nodiscard]] osg::ref_ptr<osg::TextureCubeMap> cubeTexture(const LodestarCube& described,
                                                             const ReadLevel& read);
+
+/// Uploads an array of textures itself: OpenSceneGraph gives storage to textures that it
+/// takes from those that have ended a second time, which OpenGL refuses where storage is immutable.
+/// Cubes are uploaded so too. @pre RGBA floats, one level
+void uploadAlone(osg::Texture2DArray& texture);
 
 } // namespace lodestar::osghost

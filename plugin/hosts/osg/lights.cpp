@@ -42,6 +42,7 @@ osg::ref_ptr<osg::Texture2DArray> makeArray(std::uint32_t width, std::uint32_t h
         image->setDataVariance(osg::Object::DYNAMIC);
         texture->setImage(static_cast<unsigned>(i), image);
     }
+    uploadAlone(*texture);
     return texture;
 }
 
