@@ -2,12 +2,15 @@
 //
 // Documents opened again and light that changes while OpenSceneGraph draws: the textures of the old
 // ones end and are taken for new ones, without an error of OpenGL's, and the pictures are the same.
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 
 #include <EGL/egl.h>
 #include <gtest/gtest.h>
 #include <osg/DisplaySettings>
+#include <osgUtil/SceneView>
 
 #include "hosts/osg/headless.h"
 #include "hosts/osg/lighting.h"
@@ -60,29 +63,39 @@ struct Changes : osg::NodeCallback {
     int updates = 0;
 };
 
-osg::ref_ptr<osg::Image> drawn(bool changes, bool reopens) {
+/// Two balls under a sky, the golden one, second, with a probe of its own.
+osg::ref_ptr<osghost::Lighting> balls() {
     constexpr const char* kProbe = R"("probes": [{"node": "golden", "capture": {"resolution": 16,
         "near": 0.95, "far": 50}, "influence": {"shape": "box", "size": [2, 2, 2]}}], )";
     osg::ref_ptr<osghost::Lighting> node = new osghost::Lighting;
     std::string document = kDay;
     document.insert(document.find("\"lights\""), kProbe);
     node->setDocument(document);
-    const osg::ref_ptr<osg::MatrixTransform> red =
-        ball({-1.1f, 0, 0}, 1.0f, {.diffuse = {0.7f, 0.2f, 0.1f}});
-    const osg::ref_ptr<osg::MatrixTransform> golden = ball(
-        {1.2f, 0, 0}, 0.9f, {.diffuse = {0, 0, 0}, .f0 = {1.0f, 0.77f, 0.34f}, .exponent = 150.0f});
-    golden->setName("golden");
-    node->addChild(red);
-    node->addChild(golden);
+    addBalls(*node);
+    node->getChild(1)->setName("golden");
+    return node;
+}
+
+osg::ref_ptr<osg::Image> drawn(bool changes, bool reopens) {
+    const osg::ref_ptr<osghost::Lighting> node = balls();
     osg::ref_ptr<osg::Group> root = new osg::Group;
     root->addChild(node);
     if (changes) {
-        root->setUpdateCallback(new Changes(*node, *red, reopens));
+        auto& red = static_cast<osg::MatrixTransform&>(*node->getChild(0));
+        root->setUpdateCallback(new Changes(*node, red, reopens));
     }
     EXPECT_TRUE(osghost::makeContextCurrent());
     countErrors();
     return osghost::drawOnce(*root, viewOfBalls(), projectionOfBalls(), 96, 64,
                              Changes::kChanges + 24);
+}
+
+int largest(const osg::Image& a, const osg::Image& b) {
+    int most = 0;
+    for (unsigned i = 0; i < a.getTotalSizeInBytes(); ++i) {
+        most = std::max(most, std::abs(int{a.data()[i]} - int{b.data()[i]}));
+    }
+    return most;
 }
 
 TEST(OsgReopened, NoTextureIsGivenStorageTwice) {
@@ -91,12 +104,35 @@ TEST(OsgReopened, NoTextureIsGivenStorageTwice) {
     const osg::ref_ptr<osg::Image> still = drawn(false, false);
     for (const bool reopens : {false, true}) {
         const osg::ref_ptr<osg::Image> last = drawn(true, reopens);
-        int largest = 0;
-        for (unsigned i = 0; i < still->getTotalSizeInBytes(); ++i) {
-            largest = std::max(largest, std::abs(int{still->data()[i]} - int{last->data()[i]}));
-        }
-        EXPECT_LE(largest, 1) << reopens;
+        EXPECT_LE(largest(*still, *last), 1) << reopens;
         EXPECT_EQ(errors, 0) << reopens;
+    }
+}
+
+/// A scene view that culls and that nothing draws, as where the threading model changes.
+void cullWithoutDrawing(osg::Group& root, int frames) {
+    const osg::ref_ptr<osgUtil::SceneView> view = new osgUtil::SceneView;
+    view->setDefaults();
+    view->setViewport(0, 0, 96, 64);
+    view->setViewMatrix(viewOfBalls());
+    view->setProjectionMatrix(projectionOfBalls());
+    view->setSceneData(&root);
+    for (int frame = 0; frame < frames; ++frame) {
+        view->update();
+        view->cull();
+    }
+}
+
+// A face that is culled and then never drawn is not waited for: others are drawn in its place.
+TEST(OsgReopened, FacesThatAreNeverDrawnAreAskedForAgain) {
+    const osg::ref_ptr<osg::Image> wanted = drawn(false, false);
+    for (const int frames : {1, 2, 3, 4, 5, 9}) {
+        const osg::ref_ptr<osghost::Lighting> node = balls();
+        cullWithoutDrawing(*node, frames);
+        EXPECT_TRUE(osghost::makeContextCurrent());
+        const osg::ref_ptr<osg::Image> later =
+            osghost::drawOnce(*node, viewOfBalls(), projectionOfBalls(), 96, 64, 24);
+        EXPECT_LE(largest(*wanted, *later), 1) << frames;
     }
 }
 

@@ -88,6 +88,7 @@ void ProbeFace::take(LodestarPlan plan, const LodestarProbeJob& job, DrawStates 
     plan_ = plan;
     job_ = job;
     states_ = std::move(states);
+    updates_ = 0;
     const osg::Matrixd view(job.view); // both lie column after column for column vectors
     setViewMatrix(view);
     setProjectionMatrix(osg::Matrixd(job.projection));

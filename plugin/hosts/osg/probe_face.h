@@ -37,6 +37,8 @@ public:
     [[nodiscard]] bool isDrawn() const { return stage_ == Drawn; }
     /// RGBA, row 0 first. @pre drawn
     [[nodiscard]] const float* pixels() const;
+    /// Updates since it was taken, this one too.
+    [[nodiscard]] int countUpdate() { return ++updates_; }
     /// @return whether it is this call that is to cull it
     [[nodiscard]] bool beginCull();
     void forgetStates() { states_.clear(); }
@@ -58,6 +60,7 @@ private:
     LodestarPlan plan_ = 0;
     LodestarProbeJob job_{};
     DrawStates states_;
+    int updates_ = 0;
     std::atomic<int> stage_{Waits};
     osg::ref_ptr<osg::Texture2D> texture_;
     osg::ref_ptr<osg::Image> image_;

@@ -14,6 +14,8 @@ namespace lodestar::osghost {
 namespace {
 
 constexpr std::uint32_t kFacesAFrame = 6;
+/// Updates after which a face's pixels are not awaited any more (lodestar_probes.h, probe_face).
+constexpr int kPatience = 4;
 constexpr std::size_t kUnknown = std::numeric_limits<std::size_t>::max();
 constexpr unsigned kForced =
     osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE | osg::StateAttribute::PROTECTED;
@@ -116,20 +118,35 @@ void Probes::describe() {
     }
 }
 
+/// A draw thread may hold one that has been culled: it is drawn yet, or never, as where the
+/// threading model changes. Until then it is not taken again.
+void Probes::leave(osg::ref_ptr<ProbeFace> face) {
+    (face->beginCull() ? idle_ : late_).push_back(std::move(face));
+}
+
 void Probes::takeFaces() {
     std::vector<osg::ref_ptr<ProbeFace>> still;
     for (osg::ref_ptr<ProbeFace>& face : waiting_) {
-        if (!face->isDrawn()) {
+        if (face->isDrawn()) {
+            probes_.probe_face(context_, face->plan(), face->job().probe, face->job().face,
+                               face->pixels());
+            face->forgetStates();
+            idle_.push_back(face);
+        } else if (face->countUpdate() < kPatience) {
             still.push_back(face);
-            continue;
+        } else {
+            leave(face);
         }
-        // One that came too late is asked for again.
-        probes_.probe_face(context_, face->plan(), face->job().probe, face->job().face,
-                           face->pixels());
-        face->forgetStates();
-        idle_.push_back(face);
     }
     waiting_ = std::move(still);
+    std::erase_if(late_, [this](const osg::ref_ptr<ProbeFace>& face) {
+        const bool drawn = face->isDrawn();
+        if (drawn) {
+            face->forgetStates();
+            idle_.push_back(face);
+        }
+        return drawn;
+    });
 }
 
 LodestarStatus Probes::follow(LodestarProbe probe,
@@ -254,11 +271,11 @@ LodestarStatus Probes::showJob(LodestarPlan plan, std::uint32_t index,
             return LODESTAR_E_ARG;
         }
     }
-    // An earlier job of the face was never drawn, or will be too late.
+    // An earlier job of the face: its pixels would be passed over.
     std::erase_if(waiting_, [&](const osg::ref_ptr<ProbeFace>& face) {
         const bool same = face->job().probe == job.probe && face->job().face == job.face;
-        if (same && face->beginCull()) {
-            idle_.push_back(face);
+        if (same) {
+            leave(face);
         }
         return same;
     });
@@ -408,7 +425,7 @@ void Probes::dress(osgUtil::CullVisitor& cull, osgUtil::StateGraph* top) const {
 }
 
 void Probes::retire(std::vector<osg::ref_ptr<ProbeFace>>& into) {
-    for (auto* faces : {&waiting_, &idle_}) {
+    for (auto* faces : {&waiting_, &late_, &idle_}) {
         for (osg::ref_ptr<ProbeFace>& face : *faces) {
             face->forgetStates();
             into.push_back(std::move(face));
@@ -418,7 +435,7 @@ void Probes::retire(std::vector<osg::ref_ptr<ProbeFace>>& into) {
 }
 
 void Probes::releaseGLObjects(osg::State* state) const {
-    for (const auto* faces : {&waiting_, &idle_}) {
+    for (const auto* faces : {&waiting_, &late_, &idle_}) {
         for (const osg::ref_ptr<ProbeFace>& face : *faces) {
             face->releaseGLObjects(state);
             // OpenSceneGraph's cache of render stages locks itself, then the cull visitors that it

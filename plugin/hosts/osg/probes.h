@@ -65,6 +65,7 @@ private:
         osg::ref_ptr<osg::TextureCubeMap> texels, irradiance;
     };
 
+    void leave(osg::ref_ptr<ProbeFace> face);
     void takeFaces();
     void describe();
     LodestarStatus follow(LodestarProbe probe, const std::map<std::string, osg::Matrixd>& nodes);
@@ -95,7 +96,8 @@ private:
     std::map<LodestarProbe, std::string> nodes_; ///< that probes follow
     std::map<LodestarProbe, Light> lights_;
     States states_, before_; ///< of the last plan, of the one before
-    std::vector<osg::ref_ptr<ProbeFace>> waiting_, idle_;
+    /// Awaited; culled, and not awaited any more; free.
+    std::vector<osg::ref_ptr<ProbeFace>> waiting_, late_, idle_;
 };
 
 } // namespace lodestar::osghost
