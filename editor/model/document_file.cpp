@@ -89,7 +89,8 @@ core::Result<DocumentFile> DocumentFile::open(const fs::path& path, Model& model
     removeLeftovers(autosavePath(path));
     file.stamp_ = stampOf(path); // before the reading, so that what is written between is noticed
     if (!file.stamp_.exists) {
-        model = Model();
+        model.reset({});
+        file.noteKept(model);
         return file;
     }
     auto text = textAt(path);
@@ -101,7 +102,8 @@ core::Result<DocumentFile> DocumentFile::open(const fs::path& path, Model& model
         return document.error();
     }
     file.text_ = std::move(*text);
-    model = Model(std::move(*document));
+    model.reset(std::move(*document));
+    file.noteKept(model);
     return file;
 }
 

@@ -38,7 +38,7 @@ public:
 
     /// Reads a document. A file that is not there is an empty document, to be saved there.
     /// Temporaries of programs that died while they wrote it are taken away.
-    /// @param model gets the document, without steps and not dirty
+    /// @param model is reset to the document
     /// @errors InputRefused as io::loadDocument; the model stays
     [[nodiscard]] static core::Result<DocumentFile> open(const std::filesystem::path& path,
                                                          Model& model, core::Tally& warnings);

@@ -15,7 +15,6 @@ namespace lodestar::model {
 namespace {
 
 using lighting::GradientInterpolation;
-using lighting::GradientSpace;
 using lighting::LightKind;
 
 constexpr double kRadians = std::numbers::pi / 180.0;

@@ -7,6 +7,19 @@ namespace lodestar::model {
 
 Model::Model(document::Document document) : state_(named(std::move(document))) {}
 
+void Model::reset(document::Document document) {
+    const std::uint64_t now = revisions_.document + 1;
+    state_ = named(std::move(document), state_.ids.next);
+    steps_.clear();
+    done_ = 0;
+    openToken_ = 0;
+    stamp_ = savedStamp_ = ++lastStamp_;
+    revisions_ = {now, now, now, now, now};
+    firstRevision_ = now;
+    partRevisions_.clear();
+    selection_ = {};
+}
+
 const document::Light* Model::light(Id id) const {
     const auto place = findLight(state_.ids, id);
     return place ? &state_.document.lights[*place] : nullptr;
@@ -155,7 +168,7 @@ void Model::markSaved() {
 
 std::uint64_t Model::revisionOf(Id id) const {
     const auto found = partRevisions_.find(id);
-    return found == partRevisions_.end() ? 0 : found->second;
+    return found == partRevisions_.end() ? firstRevision_ : found->second;
 }
 
 void Model::select(Selection selection) {

@@ -39,6 +39,10 @@ public:
     Model() : Model(document::Document{}) {}
     explicit Model(document::Document document);
 
+    /// Another document, without steps and not dirty. Names, tokens and revisions go on, so that
+    /// none means what it did before.
+    void reset(document::Document document);
+
     [[nodiscard]] const document::Document& document() const { return state_.document; }
     [[nodiscard]] const Identities& ids() const { return state_.ids; }
 
@@ -120,6 +124,7 @@ private:
     MergeToken openToken_ = 0, lastToken_ = 0;
     std::uint64_t stamp_ = 0, lastStamp_ = 0, savedStamp_ = 0;
     Revisions revisions_;
+    std::uint64_t firstRevision_ = 0; ///< of parts that nothing has touched
     std::map<Id, std::uint64_t> partRevisions_;
     Selection selection_;
 };

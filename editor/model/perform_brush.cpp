@@ -110,6 +110,7 @@ public:
 private:
     void add(const document::Gradient& was, const std::vector<double>& angles) {
         std::vector<double> places;
+        places.reserve(angles.size());
         for (const double angle : angles) {
             places.push_back(plain(atFromAxis(angle, edit_.kind)));
         }

@@ -2,15 +2,14 @@
 //
 // Commands that make a gradient's shape anew: mirror, simplify.
 #include <cmath>
-#include <queue>
 #include <utility>
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "model/perform.h"
 #include "model/ramp.h"
 #include "model/rules.h"
+#include "model/simplify.h"
 
 namespace lodestar::model {
 namespace {
@@ -24,57 +23,6 @@ double justBefore(double at, LightKind kind) {
     return std::nextafter(at, toAxis);
 }
 
-/// Three stops' triangle of angle and radiance, all channels.
-struct Triangles {
-    std::vector<double> angles;
-    std::vector<glm::dvec3> radiances;
-
-    [[nodiscard]] double area(std::size_t a, std::size_t b, std::size_t c) const {
-        const glm::dvec3 twice = (angles[b] - angles[a]) * (radiances[c] - radiances[a]) -
-                                 (angles[c] - angles[a]) * (radiances[b] - radiances[a]);
-        return 0.5 * (std::abs(twice.x) + std::abs(twice.y) + std::abs(twice.z));
-    }
-};
-
-/// Which stops stay when all but `count` have gone. @pre count >= 2
-std::vector<bool> keptStops(const Triangles& triangles, std::size_t count) {
-    const std::size_t n = triangles.angles.size();
-    std::vector<std::size_t> before(n), after(n);
-    std::vector<double> areas(n, 0.0);
-    std::vector<bool> kept(n, true);
-    using Entry = std::pair<double, std::size_t>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> least;
-    const auto offer = [&](std::size_t i) {
-        areas[i] = triangles.area(before[i], i, after[i]);
-        least.emplace(areas[i], i);
-    };
-    for (std::size_t i = 0; i < n; ++i) {
-        before[i] = i == 0 ? 0 : i - 1;
-        after[i] = i + 1;
-    }
-    for (std::size_t i = 1; i + 1 < n; ++i) {
-        offer(i);
-    }
-    std::size_t left = n;
-    while (left > count) {
-        const auto [area, i] = least.top();
-        least.pop();
-        if (!kept[i] || area != areas[i]) {
-            continue; // an entry from before a neighbour went
-        }
-        kept[i] = false;
-        --left;
-        after[before[i]] = after[i];
-        before[after[i]] = before[i];
-        for (const std::size_t neighbour : {before[i], after[i]}) {
-            if (neighbour > 0 && neighbour + 1 < n) {
-                offer(neighbour);
-            }
-        }
-    }
-    return kept;
-}
-
 } // namespace
 
 Performed performOn(State& state, const SimplifyStops& command) {
@@ -86,15 +34,7 @@ Performed performOn(State& state, const SimplifyStops& command) {
         return core::refused("a gradient keeps its last two stops");
     }
     std::vector<document::Stop>& stops = edit->gradient.stops;
-    if (stops.size() <= command.count) {
-        return std::vector<Id>();
-    }
-    Triangles triangles;
-    for (const document::Stop& stop : stops) {
-        triangles.angles.push_back(stop.stop.at);
-        triangles.radiances.push_back(lighting::radianceOf(stop.stop));
-    }
-    const std::vector<bool> kept = keptStops(triangles, command.count);
+    const std::vector<bool> kept = keptStops(stops, command.count);
     std::size_t next = 0;
     for (std::size_t i = 0; i < kept.size(); ++i) {
         if (kept[i]) {

@@ -38,8 +38,9 @@ LightIds namesOf(const document::Light& light, Identities& ids) {
     return names;
 }
 
-State named(document::Document document) {
+State named(document::Document document, std::uint64_t first) {
     State state{std::move(document), {}};
+    state.ids.next = first;
     for (const document::Light& light : state.document.lights) {
         state.ids.lights.push_back(namesOf(light, state.ids));
     }

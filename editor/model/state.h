@@ -58,8 +58,8 @@ struct StopPlace {
     std::size_t light = 0, key = 0, stop = 0;
 };
 
-/// A document whose parts are named from 1 on.
-[[nodiscard]] State named(document::Document document);
+/// A document whose parts are named from a first name on.
+[[nodiscard]] State named(document::Document document, std::uint64_t first = 1);
 /// Names for a light's keys and stops, and for itself.
 [[nodiscard]] LightIds namesOf(const document::Light& light, Identities& ids);
 /// Names for a key's stops, and for itself.

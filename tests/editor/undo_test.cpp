@@ -171,6 +171,28 @@ TEST(Undo, RevisionsTellWhatChanged) {
     EXPECT_GT(model.revisions().probes, last) << "a step back is a change too";
 }
 
+TEST(Undo, AnotherDocumentSharesNoNameAndNoRevision) {
+    Model model = sampleModel();
+    did(model, SetEnvironment{{}, {}, 1.0});
+    const Id old = keyId(model);
+    const Revisions before = model.revisions();
+    model.select({Id::None, old, {}, {}, {}});
+    model.reset(documentOf(kDocument));
+    EXPECT_EQ(textOf(model), textOf(sampleModel()));
+    EXPECT_EQ(model.undoCount() + model.redoCount(), 0U);
+    EXPECT_FALSE(model.dirty());
+    EXPECT_EQ(model.key(old), nullptr);
+    EXPECT_EQ(model.selection(), Selection{});
+    const Revisions after = model.revisions();
+    for (const auto part : {&Revisions::document, &Revisions::environment, &Revisions::lights,
+                            &Revisions::probes, &Revisions::materials}) {
+        EXPECT_GT(after.*part, before.document);
+    }
+    EXPECT_EQ(model.revisionOf(keyId(model)), after.document);
+    did(model, SetEnvironment{{}, {}, 1.0});
+    EXPECT_TRUE(model.dirty());
+}
+
 TEST(Undo, AStepKeepsWhatItChangedAndNotTheDocument) {
     std::vector<lighting::GradientStop> stops;
     for (int i = 0; i < 10000; ++i) {
