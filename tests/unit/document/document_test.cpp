@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <limits>
 #include <random>
 #include <string>
@@ -305,6 +306,29 @@ TEST(Document, IsSavedWholeOrNotAtAll) {
     ASSERT_FALSE(broken.ok());
     EXPECT_EQ(broken.error().file, path.string());
     std::filesystem::remove_all(folder);
+}
+
+// Kept as radians, written as the shortest decimal that is the same angle again.
+TEST(Document, AnglesAreWrittenAsTheyWereRead) {
+    for (int hundredth = -9000; hundredth <= 9000; ++hundredth) {
+        std::ostringstream number;
+        number << std::setprecision(10) << hundredth / 100.0;
+        const auto document =
+            parse(R"({"lodestar": 1, "environment": {"source": "x.hdr", "rotation": )" +
+                  number.str() + "}}");
+        ASSERT_TRUE(document.ok());
+        const std::string text = writeDocument(*document);
+        const double again = nlohmann::json::parse(text)["environment"]["rotation"].get<double>();
+        ASSERT_EQ(again, hundredth / 100.0);
+        ASSERT_EQ(parse(text)->environment->rotation, document->environment->rotation);
+    }
+}
+
+TEST(Document, AMaterialsNameMayHoldANul) {
+    const auto document = parse(R"({"lodestar": 1, "materials": {"a\u0000b": {"exponent": 3}}})");
+    ASSERT_TRUE(document.ok());
+    EXPECT_EQ(document->materials.at(std::string("a\0b", 3)).exponent, 3.0);
+    EXPECT_EQ(*parse(writeDocument(*document)), *document);
 }
 
 // The skies that come with the samples need no repair, and are the same after a save.
