@@ -18,7 +18,7 @@
 #include "app/cost_plots.h"
 #include "app/cost_shading.h"
 #include "app/cost_table.h"
-#include "app/false_color.h"
+#include "ui/false_color.h"
 #include "io/environment_file.h"
 #include "io/file.h"
 #include "io/image_file.h"
@@ -270,7 +270,7 @@ core::Result<void> writeText(const std::filesystem::path& file, const std::strin
 core::Image falseColorPicture(const core::Image& values, double most) {
     core::Image picture(values.width(), values.height(), 4);
     for (std::size_t i = 0; i < values.pixels().size(); ++i) {
-        const glm::vec3 color = falseColor(static_cast<double>(values.pixels()[i]) / most);
+        const glm::vec3 color = ui::falseColor(static_cast<double>(values.pixels()[i]) / most);
         std::copy_n(&color.x, 3, picture.pixels().begin() + static_cast<std::ptrdiff_t>(4 * i));
         picture.pixels()[4 * i + 3] = 1.0f;
     }

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <sstream>
 
-#include "app/false_color.h"
+#include "ui/false_color.h"
 #include "io/file.h"
 
 namespace lodestar::app {
@@ -210,7 +210,7 @@ std::string lobesTable(const CostTable& table) {
 std::string legend(double most) {
     std::string stops;
     for (int i = 0; i <= 12; ++i) {
-        const glm::vec3 color = 255.0f * falseColor(i / 12.0);
+        const glm::vec3 color = 255.0f * ui::falseColor(i / 12.0);
         char text[40];
         std::snprintf(text, sizeof text, "%srgb(%.0f,%.0f,%.0f)", i > 0 ? "," : "",
                       static_cast<double>(color.r), static_cast<double>(color.g),

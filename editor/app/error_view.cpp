@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/false_color.h"
+#include "ui/false_color.h"
 #include "core/contract.h"
 #include "core/font.h"
 
@@ -40,7 +40,7 @@ void paint(core::Image& image, int x, int y, const Color& color) {
 }
 
 Color colorOf(double error, double full) {
-    const glm::vec3 color = falseColor(error / full);
+    const glm::vec3 color = ui::falseColor(error / full);
     return {color.r, color.g, color.b};
 }
 

@@ -59,7 +59,7 @@ core::Result<void> Viewer::drawErrorPass() {
         return failed(texture.error());
     }
     errorPicture_ = std::move(*texture);
-    gl::beginWindowPass(*device_, 0, 0, settings_.width, settings_.height);
+    gl::beginWindowPass(*device_, 0, 0, 0, settings_.width, settings_.height);
     showOverlay();
     return {};
 }

@@ -52,6 +52,7 @@ void Viewer::handle(const platform::Event& event) {
                     keys_.erase(key.key);
                 }
             },
+            [](const platform::TextEvent&) {},
             [&](const platform::ButtonEvent& button) {
                 button.down ? (void)buttons_.insert(button.button)
                             : (void)buttons_.erase(button.button);

@@ -7,6 +7,21 @@
 #include <epoxy/gl.h>
 
 namespace lodestar::gl {
+namespace {
+
+core::Image readPixels(unsigned framebuffer, int width, int height) {
+    core::Image image(width, height, 4);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, image.pixels().data());
+    for (int y = 0; y < height / 2; ++y) {
+        std::swap_ranges(image.at(0, y), image.at(0, y) + std::ptrdiff_t{4} * width,
+                         image.at(0, height - 1 - y));
+    }
+    return image;
+}
+
+} // namespace
 
 Framebuffer::Framebuffer(Framebuffer&& other) noexcept {
     *this = std::move(other);
@@ -125,8 +140,8 @@ void DepthLayers::begin(int layer) {
         static_cast<std::uint64_t>(side_) * static_cast<std::uint64_t>(side_);
 }
 
-void beginWindowPass(Device& device, int x, int y, int width, int height) {
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+void beginWindowPass(Device& device, unsigned framebuffer, int x, int y, int width, int height) {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(x, y, width, height);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     ++device.counters().passes;
@@ -134,16 +149,47 @@ void beginWindowPass(Device& device, int x, int y, int width, int height) {
         static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
 }
 
-core::Image Framebuffer::read() const {
-    core::Image image(width_, height_, 4);
-    glBindFramebuffer(GL_FRAMEBUFFER, id_);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, image.pixels().data());
-    for (int y = 0; y < height_ / 2; ++y) {
-        std::swap_ranges(image.at(0, y), image.at(0, y) + std::ptrdiff_t{4} * width_,
-                         image.at(0, height_ - 1 - y));
+DisplayTarget::DisplayTarget(DisplayTarget&& other) noexcept {
+    *this = std::move(other);
+}
+
+DisplayTarget& DisplayTarget::operator=(DisplayTarget&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(color_, other.color_);
+    return *this;
+}
+
+DisplayTarget::~DisplayTarget() {
+    if (id_ != 0) {
+        glDeleteFramebuffers(1, &id_);
     }
-    return image;
+}
+
+core::Result<DisplayTarget> DisplayTarget::make(Device& device, int width, int height) {
+    auto color =
+        Texture::makeTarget(device, width, height, ArrayFormat::Rgba8, true, "displayed picture");
+    if (!color) {
+        return color.error();
+    }
+    DisplayTarget target;
+    target.color_ = std::move(*color);
+    glGenFramebuffers(1, &target.id_);
+    glBindFramebuffer(GL_FRAMEBUFFER, target.id_);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.color_.id(),
+                           0);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+        return core::Error{
+            core::ErrorCode::NoOpenGl, "the driver cannot render to 8-bit colour", {}, {}};
+    }
+    return target;
+}
+
+core::Image DisplayTarget::read() const {
+    return readPixels(id_, width(), height());
+}
+
+core::Image Framebuffer::read() const {
+    return readPixels(id_, width_, height_);
 }
 
 } // namespace lodestar::gl

@@ -61,8 +61,31 @@ private:
     Texture depths_;
 };
 
-/// Binds the window's own framebuffer, 0, with a viewport from the lower left, not cleared. Counts
-/// a pass.
-void beginWindowPass(Device& device, int x, int y, int width, int height);
+/// A picture of 8 bits a channel that is drawn into and then drawn as a texture. Move-only.
+class DisplayTarget {
+public:
+    DisplayTarget() = default;
+    DisplayTarget(DisplayTarget&& other) noexcept;
+    DisplayTarget& operator=(DisplayTarget&& other) noexcept;
+    ~DisplayTarget();
+
+    /// @errors NoOpenGl if the driver has no memory for it
+    [[nodiscard]] static core::Result<DisplayTarget> make(Device& device, int width, int height);
+
+    [[nodiscard]] unsigned framebuffer() const { return id_; }
+    [[nodiscard]] const Texture& color() const { return color_; }
+    [[nodiscard]] int width() const { return color_.width(); }
+    [[nodiscard]] int height() const { return color_.height(); }
+    /// Reads all pixels back, row 0 at the top, 4 channels in [0, 1] as they are shown.
+    [[nodiscard]] core::Image read() const;
+
+private:
+    unsigned id_ = 0;
+    Texture color_;
+};
+
+/// Binds a framebuffer of the context, 0 the window's own, with a viewport from the lower left, not
+/// cleared. Counts a pass.
+void beginWindowPass(Device& device, unsigned framebuffer, int x, int y, int width, int height);
 
 } // namespace lodestar::gl

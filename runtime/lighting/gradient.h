@@ -41,6 +41,7 @@ struct Gradient {
     std::vector<GradientStop> stops;
     GradientInterpolation interpolation = GradientInterpolation::Linear;
     GradientSpace space = GradientSpace::Linear;
+    bool operator==(const Gradient&) const = default;
 };
 
 /// A gradient put in order: stops from the axis outwards (a sky's from +90 down), radiance in

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lighting/light_map.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -17,6 +18,26 @@ int lambertColumns(const RsrmLayout& layout) {
 
 LightMap::LightMap(DayLight day, const RsrmLayout& layout, std::shared_ptr<RsrmKernels> kernels)
     : day_(std::move(day)), layout_(layout), kernels_(std::move(kernels)), keys_(day_.keys.size()) {
+}
+
+bool LightMap::keep(const LightMap& before) {
+    if (day_.kind != before.day_.kind) {
+        return false;
+    }
+    const auto same = [](const DayKey& a, const DayKey& b) {
+        return a.gradient == b.gradient && a.tint == b.tint;
+    };
+    const std::vector<DayKey>& were = before.day_.keys;
+    const bool all = day_.keys.size() == were.size() &&
+                     std::equal(day_.keys.begin(), day_.keys.end(), were.begin(), same);
+    for (std::size_t i = 0; i < day_.keys.size(); ++i) {
+        for (std::size_t j = 0; j < were.size() && !keys_[i]; ++j) {
+            if (before.keys_[j] && same(day_.keys[i], were[j])) {
+                keys_[i] = before.keys_[j];
+            }
+        }
+    }
+    return all;
 }
 
 std::uint64_t LightMap::uploadTexels() const {

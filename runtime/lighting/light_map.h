@@ -25,6 +25,11 @@ public:
     /// where nothing is blended
     LightMap(DayLight day, const RsrmLayout& layout, std::shared_ptr<RsrmKernels> kernels);
 
+    /// Takes over another map's bakes of keys that are the same here, wherever they stand.
+    /// @return whether all keys are the same in the same order, their hours aside
+    /// @pre the layouts are equal
+    bool keep(const LightMap& before);
+
     [[nodiscard]] const DayLight& day() const { return day_; }
     [[nodiscard]] const RsrmLayout& layout() const { return layout_; }
 

@@ -67,10 +67,17 @@ std::optional<Key> keyFrom(int code) {
         {GLFW_KEY_RIGHT, Key::Right},
         {GLFW_KEY_UP, Key::Up},
         {GLFW_KEY_DOWN, Key::Down},
+        {GLFW_KEY_ENTER, Key::Enter},
+        {GLFW_KEY_KP_ENTER, Key::Enter},
+        {GLFW_KEY_BACKSPACE, Key::Backspace},
+        {GLFW_KEY_DELETE, Key::Delete},
+        {GLFW_KEY_INSERT, Key::Insert},
         {GLFW_KEY_LEFT_SHIFT, Key::Shift},
         {GLFW_KEY_RIGHT_SHIFT, Key::Shift},
         {GLFW_KEY_LEFT_CONTROL, Key::Control},
         {GLFW_KEY_RIGHT_CONTROL, Key::Control},
+        {GLFW_KEY_LEFT_ALT, Key::Alt},
+        {GLFW_KEY_RIGHT_ALT, Key::Alt},
     };
     for (const auto& [glfw, key] : kOthers) {
         if (glfw == code) {
@@ -120,6 +127,9 @@ void Window::State::hook() {
             of(w).events.emplace_back(
                 KeyEvent{*key, action != GLFW_RELEASE, action == GLFW_REPEAT, modifiersFrom(bits)});
         }
+    });
+    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned character) {
+        of(w).events.emplace_back(TextEvent{static_cast<char32_t>(character)});
     });
     glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int bits) {
         if (button <= GLFW_MOUSE_BUTTON_MIDDLE) {
@@ -253,6 +263,15 @@ void Window::setFullScreen(bool on) {
 
 void Window::present() {
     glfwSwapBuffers(state_->window);
+}
+
+std::string Window::clipboard() const {
+    const char* text = glfwGetClipboardString(state_->window);
+    return text != nullptr ? text : "";
+}
+
+void Window::setClipboard(const std::string& text) {
+    glfwSetClipboardString(state_->window, text.c_str());
 }
 
 } // namespace lodestar::platform

@@ -77,8 +77,13 @@ enum class Key {
     Right,
     Up,
     Down,
+    Enter,
+    Backspace,
+    Delete,
+    Insert,
     Shift,
     Control,
+    Alt,
 };
 
 struct Modifiers {
@@ -97,6 +102,10 @@ struct KeyEvent {
     bool down = true;
     bool repeat = false;
     Modifiers modifiers;
+};
+/// A character was typed, as the keyboard's layout and dead keys make it.
+struct TextEvent {
+    char32_t character = 0; ///< Unicode
 };
 /// A pointer button went down or up.
 struct ButtonEvent {
@@ -124,7 +133,7 @@ struct FocusLostEvent {};
 /// The user asked to close the window.
 struct CloseEvent {};
 
-using Event = std::variant<KeyEvent, ButtonEvent, MotionEvent, WheelEvent, DropEvent, DamageEvent,
+using Event = std::variant<KeyEvent, TextEvent, ButtonEvent, MotionEvent, WheelEvent, DropEvent, DamageEvent,
                            FocusLostEvent, CloseEvent>;
 
 /// A window whose core context of OpenGL 3.3 or later is current, with debug output where the
@@ -157,6 +166,10 @@ public:
     void setFullScreen(bool on);
     /// Shows what was drawn into framebuffer 0.
     void present();
+
+    /// The system's clipboard; empty where it holds no text.
+    [[nodiscard]] std::string clipboard() const;
+    void setClipboard(const std::string& text);
 
 private:
     struct State;

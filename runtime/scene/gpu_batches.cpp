@@ -76,7 +76,7 @@ std::size_t GpuInstances::bind(std::size_t instance) {
 
 void GpuMaterials::prepare(gl::Device& device, const Scene& scene,
                            const std::optional<MaterialOverride>& values) {
-    if (written_ && written_->values == values) {
+    if (written_ && written_->values == values && !stale_) {
         return;
     }
     const auto alignment = static_cast<std::size_t>(device.capabilities().uniformAlignment);
@@ -94,6 +94,7 @@ void GpuMaterials::prepare(gl::Device& device, const Scene& scene,
         buffer_ = gl::Buffer(device, gl::BufferKind::Uniform, bytes);
     }
     written_ = Written{values};
+    stale_ = false;
 }
 
 void GpuMaterials::bind(int material) const {

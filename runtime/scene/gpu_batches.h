@@ -53,8 +53,10 @@ private:
 
 class GpuMaterials {
 public:
+    /// The materials have changed: the next prepare writes them.
+    void forget() { stale_ = true; }
     /// Writes all materials of a scene, the default one last, if the override is another than the
-    /// last call's.
+    /// last call's or the materials have changed.
     void prepare(gl::Device& device, const Scene& scene,
                  const std::optional<MaterialOverride>& values);
     /// Binds one. @param material index into the scene's, kNone the default
@@ -65,6 +67,7 @@ private:
         std::optional<MaterialOverride> values;
     };
     std::optional<Written> written_;
+    bool stale_ = false;
     std::size_t count_ = 0;  ///< of the scene's
     std::size_t stride_ = 0; ///< bytes from one to the next
     gl::Buffer buffer_;

@@ -53,6 +53,34 @@ GpuLights::GpuLights(std::vector<lighting::DayLight> lights, const lighting::Rsr
     }
 }
 
+void GpuLights::keep(GpuLights&& before) {
+    paintings_ = before.paintings_;
+    const bool fits = layout_ == before.layout_;
+    if (fits && lights_.size() == before.lights_.size()) {
+        maps_ = std::move(before.maps_);
+        lamberts_ = std::move(before.lamberts_);
+        gradients_ = std::move(before.gradients_);
+    }
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        Light& light = lights_[i];
+        const bool painted = !fits || i >= before.lights_.size() ||
+                             !light.map.keep(before.lights_[i].map);
+        light.painting = painted ? ++paintings_ : before.lights_[i].painting;
+        if (!painted && maps_) {
+            light.uploaded = before.lights_[i].uploaded;
+            light.scale = before.lights_[i].scale;
+        }
+        if (!painted) {
+            light.facing = std::move(before.lights_[i].facing);
+        }
+    }
+}
+
+int GpuLights::shadowCount() const {
+    return static_cast<int>(std::count_if(lights_.begin(), lights_.end(),
+                                          [](const Light& light) { return light.shadow >= 0; }));
+}
+
 bool GpuLights::published() const {
     return layout_.columnMap == lighting::RsrmColumns::UniformHeight;
 }

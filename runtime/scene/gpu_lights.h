@@ -29,6 +29,15 @@ public:
     GpuLights(std::vector<lighting::DayLight> lights, const lighting::RsrmLayout& layout,
               std::shared_ptr<lighting::RsrmKernels> kernels);
     [[nodiscard]] const std::shared_ptr<lighting::RsrmKernels>& kernels() const { return kernels_; }
+    /// Takes over what is the same in the lights before these: bakes of equal keys, the textures of
+    /// as many maps, and what of them is uploaded.
+    void keep(GpuLights&& before);
+    /// How many have a shadow map.
+    [[nodiscard]] int shadowCount() const;
+    /// Another number for another painting of a light, in the lights that these took over from too.
+    [[nodiscard]] std::uint64_t painting(std::size_t light) const {
+        return lights_[light].painting;
+    }
 
     [[nodiscard]] bool empty() const { return lights_.empty(); }
     /// Whether the maps have the published columns and rows.
@@ -72,6 +81,7 @@ private:
         std::optional<lighting::LightMap::Content> uploaded{};
         float scale = 1.0f;               ///< of the uploaded map
         std::vector<glm::dvec3> facing{}; ///< facingIrradiance of its keys, made when asked for
+        std::uint64_t painting = 0;
     };
 
     [[nodiscard]] core::Result<void> allocate(gl::Device& device);
@@ -81,6 +91,7 @@ private:
     std::vector<Light> lights_;
     core::Tally warnings_;
     std::shared_ptr<lighting::RsrmKernels> kernels_ = std::make_shared<lighting::RsrmKernels>();
+    std::uint64_t paintings_ = 0; ///< numbers given so far
     gl::Texture maps_, lamberts_, gradients_;
 };
 

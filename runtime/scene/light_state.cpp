@@ -27,6 +27,7 @@ plan::LightState lightState(const GpuEnvironment& environment, GpuLights& lights
             sky.fold(static_cast<std::uint64_t>(content.to));
             sky.fold(content.t);
             sky.fold(content.factor);
+            sky.fold(lights.painting(i));
         }
         if (lights.isSky(i) || lights.isBareSun(i)) { // what probes see of the latter
             for (int c = 0; c < 3; ++c) {

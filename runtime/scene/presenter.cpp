@@ -24,8 +24,8 @@ core::Result<Presenter> Presenter::make(gl::Device& device) {
 }
 
 void Presenter::show(const gl::Framebuffer& tile, const glm::ivec2& origin, int samplesPerSide,
-                     float exposure) {
-    gl::beginWindowPass(*device_, origin.x, origin.y, tile.width() / samplesPerSide,
+                     float exposure, unsigned framebuffer) {
+    gl::beginWindowPass(*device_, framebuffer, origin.x, origin.y, tile.width() / samplesPerSide,
                         tile.height() / samplesPerSide);
     program_.use();
     glUniform2i(origin_, origin.x, origin.y);

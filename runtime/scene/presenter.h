@@ -11,7 +11,7 @@
 
 namespace lodestar::scene {
 
-/// Draws tiles into framebuffer 0: the mean of each pixel's samples, times an exposure, through
+/// Draws tiles into a framebuffer: the mean of each pixel's samples, times an exposure, through
 /// the filmic curve and sRGB, as a PNG of the same radiance would hold it, on black.
 class Presenter {
 public:
@@ -20,8 +20,9 @@ public:
 
     /// @param tile its size is a multiple of samplesPerSide  @param origin the tile's lower left
     /// pixel in the window, from the lower left  @param exposure factor on radiance, > 0
+    /// @param framebuffer of the context, 0 the window's own
     void show(const gl::Framebuffer& tile, const glm::ivec2& origin, int samplesPerSide,
-              float exposure);
+              float exposure, unsigned framebuffer = 0);
 
 private:
     Presenter(gl::Device& device, gl::Program program);

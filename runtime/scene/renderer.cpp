@@ -227,8 +227,21 @@ void Renderer::setEnvironment(std::string source, lighting::Cubemap base) {
 
 void Renderer::setLights(std::vector<lighting::DayLight> lights,
                          const lighting::RsrmLayout& layout) {
-    state_->lights = GpuLights(std::move(lights), layout, state_->lights.kernels());
-    state_->shadows = {};
+    GpuLights set(std::move(lights), layout, state_->lights.kernels());
+    if (set.shadowCount() != state_->lights.shadowCount()) {
+        state_->shadows = {};
+    }
+    set.keep(std::move(state_->lights));
+    state_->lights = std::move(set);
+    state_->probes.setWritten(writtenFactor(state_->scene, state_->environment, state_->lights));
+}
+
+void Renderer::materialsChanged() {
+    state_->drawer.forgetMaterials();
+    state_->planner.forgetDraws();
+    for (std::size_t i = 0; i < state_->observer.count(); ++i) {
+        state_->observer.request(i); // what they hold shows the materials as they were
+    }
     state_->probes.setWritten(writtenFactor(state_->scene, state_->environment, state_->lights));
 }
 
@@ -421,7 +434,7 @@ core::Result<Frame> Renderer::render(const View& view, const RenderSettings& set
 }
 
 core::Result<Frame> Renderer::draw(const View& view, const RenderSettings& settings,
-                                   float exposure) {
+                                   float exposure, unsigned framebuffer) {
     State& state = *state_;
     LODESTAR_EXPECT(exposure > 0.0f, "an exposure is a factor above 0");
     if (!state.presenter) {
@@ -434,7 +447,8 @@ core::Result<Frame> Renderer::draw(const View& view, const RenderSettings& setti
     return state.drawFrame(view, settings, [&](Frame&) -> State::TileSink {
         return [&](const glm::ivec4& tile) {
             const glm::ivec2 origin(tile.x, settings.height - tile.y - tile.w);
-            state.presenter->show(state.target, origin, settings.samplesPerSide, exposure);
+            state.presenter->show(state.target, origin, settings.samplesPerSide, exposure,
+                                  framebuffer);
         };
     });
 }

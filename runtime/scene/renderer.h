@@ -84,7 +84,7 @@ struct ReferenceTaps {
                                         const std::vector<lighting::DayLight>& lights);
 
 /// Draws one scene under one environment, day lights, or both. The scene must outlive the renderer
-/// unchanged but for its pose: node transforms and morph weights.
+/// unchanged but for its pose, node transforms and morph weights, and what materialsChanged says.
 class Renderer {
 public:
     /// Uploads what the scene needs. @errors NoOpenGl if the driver has no memory for it
@@ -96,10 +96,14 @@ public:
     void setEnvironment(std::string source, lighting::Cubemap base);
     /// Sets the skies and suns, in place of those set before. Without an environment they are all
     /// the light, the backdrop too; beside one suns add to it, and a sky stands in its place unless
-    /// it says `add`. @param lights as lighting::repaired leaves them
+    /// it says `add`. What of their keys is as it was is not baked again.
+    /// @param lights as lighting::repaired leaves them
     /// @param layout how their maps are stored
     void setLights(std::vector<lighting::DayLight> lights,
                    const lighting::RsrmLayout& layout = lighting::kRsrm);
+    /// To be called where numbers, colours or estimators of the scene's materials have changed;
+    /// their textures have not.
+    void materialsChanged();
     /// Counts of lights and shadows beyond what a frame holds.
     [[nodiscard]] const core::Tally& lightWarnings() const;
 
@@ -129,8 +133,9 @@ public:
     /// The same picture, shown in the context's own framebuffer 0 as a PNG would hold it, and not
     /// read back: Frame::radiance is empty and repaired pixels are not counted.
     /// @param exposure factor on radiance, > 0
+    /// @param framebuffer that it is shown in instead, from its lower left
     [[nodiscard]] core::Result<Frame> draw(const View& view, const RenderSettings& settings,
-                                           float exposure);
+                                           float exposure, unsigned framebuffer = 0);
 
     /// What the last frame drew once more, one sample a pixel, in front of nothing: every value 0
     /// where there is no surface. All is as it was in the frame but for the distant environment.

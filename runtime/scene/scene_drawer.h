@@ -27,6 +27,8 @@ public:
     [[nodiscard]] const std::vector<DrawItem>& items() const { return items_; }
     [[nodiscard]] GpuDeformation& deformation() { return deformation_; }
 
+    /// Numbers or colours of the scene's materials have changed.
+    void forgetMaterials() { materials_.forget(); }
     /// Uploads what a plan's draws need and has changed, and says where their instances stand.
     void prepare(const plan::EffectPlan& plan, const RenderSettings& settings);
     /// @errors Internal: a shader that the driver refuses

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "app/error_view.h"
-#include "app/false_color.h"
+#include "ui/false_color.h"
 
 namespace lodestar::app {
 namespace {
@@ -28,19 +28,19 @@ glm::dvec3 oklab(const glm::vec3& encoded) {
 // where a sixteenth of the curve turns by 20 degrees, and floats of sRGB keep a step to 1e-5.
 TEST(FalseColor, EqualStepsLookEquallyFarApartAndEverLighter) {
     constexpr int kParts = 16;
-    const double whole = glm::distance(oklab(falseColor(0.0)), oklab(falseColor(1.0 / kParts)));
+    const double whole = glm::distance(oklab(ui::falseColor(0.0)), oklab(ui::falseColor(1.0 / kParts)));
     for (int i = 1; i < kParts; ++i) {
-        const glm::dvec3 from = oklab(falseColor(static_cast<double>(i) / kParts));
-        const glm::dvec3 to = oklab(falseColor((i + 1.0) / kParts));
+        const glm::dvec3 from = oklab(ui::falseColor(static_cast<double>(i) / kParts));
+        const glm::dvec3 to = oklab(ui::falseColor((i + 1.0) / kParts));
         EXPECT_NEAR(glm::distance(from, to) / whole, 1.0, 0.006) << i;
         EXPECT_GT(to.x, from.x + 0.02) << i;
     }
 }
 
 TEST(FalseColor, NumbersBeyondItsEndsAreTheEnds) {
-    EXPECT_EQ(falseColor(-1.0), falseColor(0.0));
-    EXPECT_EQ(falseColor(std::nan("")), falseColor(0.0));
-    EXPECT_EQ(falseColor(7.0), falseColor(1.0));
+    EXPECT_EQ(ui::falseColor(-1.0), ui::falseColor(0.0));
+    EXPECT_EQ(ui::falseColor(std::nan("")), ui::falseColor(0.0));
+    EXPECT_EQ(ui::falseColor(7.0), ui::falseColor(1.0));
 }
 
 core::Image pixels(const std::vector<glm::vec4>& values) {

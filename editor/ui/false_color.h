@@ -5,7 +5,7 @@
 
 #include <glm/vec3.hpp>
 
-namespace lodestar::app {
+namespace lodestar::ui {
 
 /// The colour of a number, sRGB-encoded. Equal steps of the number are equal distances in Oklab
 /// [Ottosson20], and lightness rises throughout, so that it reads in grey and by the
@@ -13,4 +13,4 @@ namespace lodestar::app {
 /// @param x [0, 1], clamped; NaN as 0
 [[nodiscard]] glm::vec3 falseColor(double x);
 
-} // namespace lodestar::app
+} // namespace lodestar::ui

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/false_color.h"
+#include "ui/false_color.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 
 #include "lodestar/display.glsl"
 
-namespace lodestar::app {
+namespace lodestar::ui {
 namespace {
 
 /// A curve in Oklab: lightness rises evenly, the hue turns from violet (290 degrees) through red to
@@ -64,4 +64,4 @@ glm::vec3 falseColor(double x) {
             shader::lodestar_srgbFromLinear(linear.b)};
 }
 
-} // namespace lodestar::app
+} // namespace lodestar::ui

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "ui/fields.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "ui/theme.h"
+
+namespace lodestar::ui {
+
+void label(const char* text) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(kDimText, "%s", text);
+    ImGui::SameLine(7.2f * ImGui::GetFontSize());
+    ImGui::SetNextItemWidth(-1.0f);
+}
+
+void heading(const char* text) {
+    ImGui::Dummy({0.0f, 0.15f * ImGui::GetFontSize()});
+    ImGui::TextColored(kAccent, "%s", text);
+    ImGui::Separator();
+}
+
+std::optional<double> numberField(const char* id, double value, float speed, double least,
+                                  double most, const char* format) {
+    if (!ImGui::DragScalar(id, ImGuiDataType_Double, &value, speed, &least, &most, format,
+                           ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat) ||
+        !std::isfinite(value)) {
+        return std::nullopt;
+    }
+    return std::clamp(value, least, most);
+}
+
+namespace {
+
+/// A picker of hue and saturation over the brightest channel, which it keeps.
+std::optional<glm::dvec3> pickerPopup(const char* id, const glm::dvec3& value, double most) {
+    std::optional<glm::dvec3> changed;
+    if (ImGui::BeginPopup(id)) {
+        const double brightest = std::max({value.r, value.g, value.b});
+        const double unit = std::max(brightest, 1.0);
+        float channels[3];
+        for (int c = 0; c < 3; ++c) {
+            channels[c] = static_cast<float>(value[c] / unit);
+        }
+        ImGui::SetNextItemWidth(14.0f * ImGui::GetFontSize());
+        if (ImGui::ColorPicker3("##picker", channels,
+                                ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoSidePreview |
+                                    ImGuiColorEditFlags_Float)) {
+            glm::dvec3 picked(channels[0], channels[1], channels[2]);
+            changed = glm::clamp(picked * unit, 0.0, most);
+        }
+        ImGui::EndPopup();
+    }
+    return changed;
+}
+
+} // namespace
+
+std::optional<glm::dvec3> colorField(const char* id, const glm::dvec3& value, double most,
+                                     double exposure) {
+    ImGui::PushID(id);
+    const float side = ImGui::GetFrameHeight();
+    const ImVec2 low = ImGui::GetCursorScreenPos();
+    if (ImGui::InvisibleButton("##swatch", {1.6f * side, side})) {
+        ImGui::OpenPopup("##pick");
+    }
+    ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + 1.6f * side, low.y + side},
+                                              shownColor(value, exposure), 3.0f);
+    ImGui::GetWindowDrawList()->AddRect(low, {low.x + 1.6f * side, low.y + side},
+                                        ImGui::GetColorU32(ImGuiCol_Border), 3.0f);
+    std::optional<glm::dvec3> changed = pickerPopup("##pick", value, most);
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1.0f);
+    glm::dvec3 typed = value;
+    constexpr double kLeast = 0.0;
+    if (ImGui::DragScalarN("##channels", ImGuiDataType_Double, &typed.x, 3, 0.005f, &kLeast, &most,
+                           "%.4g",
+                           ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat)) {
+        // A typed number that is none stays out.
+        const bool finite =
+            std::isfinite(typed.x) && std::isfinite(typed.y) && std::isfinite(typed.z);
+        changed = finite ? std::optional(glm::clamp(typed, 0.0, most)) : changed;
+    }
+    ImGui::PopID();
+    return changed;
+}
+
+std::optional<std::size_t> choiceField(Studio& studio, const char* id, std::size_t chosen,
+                                       std::span<const char* const> choices) {
+    std::optional<std::size_t> changed;
+    const bool open = ImGui::BeginCombo(id, chosen < choices.size() ? choices[chosen] : "");
+    studio.mark(id + 2); // without its "##"
+    if (open) {
+        for (std::size_t i = 0; i < choices.size(); ++i) {
+            if (ImGui::Selectable(choices[i], i == chosen)) {
+                changed = i;
+            }
+            studio.mark(std::string(id + 2) + "/" + choices[i]);
+        }
+        ImGui::EndCombo();
+    }
+    return changed == chosen ? std::nullopt : changed;
+}
+
+bool button(Studio& studio, const char* text, const char* shortcut) {
+    const bool pressed = ImGui::Button(text);
+    studio.mark(text);
+    if (shortcut[0] != '\0' && ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("%s", shortcut);
+    }
+    return pressed;
+}
+
+glm::dvec2 degreesOfAxis(const glm::dvec3& axis) {
+    const double length = glm::length(axis);
+    const glm::dvec3 unit = length > 0.0 ? axis / length : glm::dvec3(0.0, 1.0, 0.0);
+    const double azimuth = glm::degrees(std::atan2(unit.x, -unit.z));
+    return {azimuth < 0.0 ? azimuth + 360.0 : azimuth,
+            glm::degrees(std::asin(std::clamp(unit.y, -1.0, 1.0)))};
+}
+
+glm::dvec3 axisOfDegrees(const glm::dvec2& degrees) {
+    const glm::dvec2 angle = glm::radians(degrees);
+    return {std::sin(angle.x) * std::cos(angle.y), std::sin(angle.y),
+            -std::cos(angle.x) * std::cos(angle.y)};
+}
+
+} // namespace lodestar::ui

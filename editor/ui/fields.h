@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+//
+// Fields of forms: numbers that stay in their range however they are typed, colours of light.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "ui/studio.h"
+
+namespace lodestar::ui {
+
+/// A label in the form's left column; what follows fills the right one.
+void label(const char* text);
+/// A heading over a group of fields.
+void heading(const char* text);
+
+/// A number that is dragged, or typed with Ctrl + click or Enter, always within its range.
+/// @param format printf's @return the new value, where it was changed
+[[nodiscard]] std::optional<double> numberField(const char* id, double value, float speed,
+                                                double least, double most, const char* format);
+/// Linear colour in channels of [0, most], with a swatch that opens a picker.
+/// @param exposure factor by which the swatch is shown
+[[nodiscard]] std::optional<glm::dvec3> colorField(const char* id, const glm::dvec3& value,
+                                                   double most, double exposure);
+/// A choice of a list. @return the new index, where another was chosen
+[[nodiscard]] std::optional<std::size_t> choiceField(Studio& studio, const char* id,
+                                                     std::size_t chosen,
+                                                     std::span<const char* const> choices);
+/// A button that says with a tooltip which key it has.
+[[nodiscard]] bool button(Studio& studio, const char* text, const char* shortcut);
+
+/// The direction of an axis as degrees: x azimuth clockwise from north (-Z), y elevation.
+[[nodiscard]] glm::dvec2 degreesOfAxis(const glm::dvec3& axis);
+[[nodiscard]] glm::dvec3 axisOfDegrees(const glm::dvec2& degrees);
+
+} // namespace lodestar::ui

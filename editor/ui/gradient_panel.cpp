@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "model/presets.h"
+#include "model/ramp.h"
+#include "ui/fields.h"
+#include "ui/panels.h"
+#include "ui/theme.h"
+
+namespace lodestar::ui {
+namespace {
+
+using lighting::GradientInterpolation;
+using lighting::GradientSpace;
+
+constexpr const char* kInterpolations[] = {"linear", "constant", "smooth", "cubic"};
+constexpr const char* kSpaces[] = {"linear", "oklab", "srgb"};
+
+/// The stops that fields act on: those selected.
+const std::vector<model::Id>& selectedStops(const Studio& studio) {
+    return studio.model.selection().stops;
+}
+
+void drawStopFields(Studio& studio, lighting::LightKind kind) {
+    const std::vector<model::Id> ids = selectedStops(studio);
+    const document::Stop* first = ids.empty() ? nullptr : studio.model.stop(ids.front());
+    if (first == nullptr) {
+        ImGui::TextColored(kDimText, "Click the strip to add a stop, a handle to select one.");
+        return;
+    }
+    const lighting::GradientStop stop = first->stop;
+    model::SetStops set{ids, {}, {}, {}};
+    const model::AngleRange range = model::anglesOf(kind);
+    label(kind == lighting::LightKind::Sky ? "elevation" : "angle");
+    set.at = numberField("##at", stop.at, kind == lighting::LightKind::Sky ? 0.1f : 0.02f,
+                         range.least, range.most, "%.6g\xc2\xb0");
+    studio.mark("stop at");
+    if (set.at) {
+        studio.run(set);
+    }
+    set.at.reset();
+    label("colour");
+    set.color = colorField("color", stop.color, 1e9, std::exp2(studio.view.exposure + stop.ev));
+    studio.mark("stop color");
+    if (set.color) {
+        studio.run(set);
+    }
+    set.color.reset();
+    label("EV");
+    set.ev = numberField("##ev", stop.ev, 0.02f, -64.0, 64.0, "%+.4g");
+    studio.mark("stop ev");
+    if (set.ev) {
+        studio.run(set);
+    }
+    const glm::dvec3 radiance = lighting::radianceOf(stop);
+    label("radiance");
+    ImGui::AlignTextToFramePadding();
+    ImGui::Text("%.4g  %.4g  %.4g", radiance.r, radiance.g, radiance.b);
+}
+
+void drawBrushFields(Studio& studio) {
+    model::Brush& brush = studio.view.brushSettings;
+    label("brush");
+    constexpr const char* kModes[] = {"paint", "smooth"};
+    if (const auto mode =
+            choiceField(studio, "##brush mode", static_cast<std::size_t>(brush.mode), kModes)) {
+        brush.mode = static_cast<model::BrushMode>(*mode);
+    }
+    label("size");
+    brush.size = numberField("##size", brush.size, 0.1f, 0.01, 180.0, "%.4g\xc2\xb0")
+                     .value_or(brush.size);
+    label("softness");
+    brush.softness =
+        numberField("##soft", brush.softness, 0.005f, 0.0, 1.0, "%.2f").value_or(brush.softness);
+    label("strength");
+    brush.strength =
+        numberField("##strength", brush.strength, 0.005f, 0.0, 1.0, "%.2f").value_or(brush.strength);
+    if (brush.mode == model::BrushMode::Paint) {
+        label("radiance");
+        brush.color = colorField("brush color", brush.color, 1e9, std::exp2(studio.view.exposure))
+                          .value_or(brush.color);
+    }
+}
+
+void drawShapeButtons(Studio& studio, model::Id key) {
+    if (button(studio, "Reverse", "R")) {
+        studio.runOnce(model::ReverseStops{key});
+    }
+    ImGui::SameLine();
+    if (button(studio, "Mirror", "M")) {
+        studio.runOnce(model::MirrorStops{key});
+    }
+    ImGui::SameLine();
+    if (button(studio, "Distribute", "D")) {
+        studio.runOnce(model::DistributeStops{key});
+    }
+    ImGui::SameLine();
+    if (button(studio, "Simplify", "to at most 8 stops")) {
+        studio.runOnce(model::SimplifyStops{key});
+    }
+}
+
+void drawToggles(Studio& studio) {
+    ImGui::Checkbox("Brush", &studio.view.brush);
+    studio.mark("Brush");
+    ImGui::SameLine();
+    ImGui::Checkbox("Snap", &studio.view.snapping);
+    studio.mark("Snap");
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("to 5\xc2\xb0, the horizon and other stops; Alt turns it around");
+    }
+    ImGui::SameLine();
+    ImGui::Checkbox("False colours", &studio.view.falseColor);
+    studio.mark("False colours");
+    ImGui::SameLine();
+    ImGui::Checkbox("Pick", &studio.view.picking);
+    studio.mark("Pick");
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("a click in the viewport gives the selected stops its radiance (I)");
+    }
+}
+
+} // namespace
+
+void selectNeighbourStop(Studio& studio, int step) {
+    const auto place = model::findKey(studio.model.ids(), studio.chosenKey());
+    if (!place) {
+        return;
+    }
+    const model::KeyIds& names = studio.model.ids().lights[place->light].keys[place->key];
+    const auto count = static_cast<std::ptrdiff_t>(names.stops.size());
+    if (count == 0) {
+        return;
+    }
+    std::ptrdiff_t at = step > 0 ? -1 : count;
+    if (!selectedStops(studio).empty()) {
+        at = std::find(names.stops.begin(), names.stops.end(), selectedStops(studio).front()) -
+             names.stops.begin();
+    }
+    model::Selection selection = studio.model.selection();
+    selection.key = names.id;
+    selection.stops = {names.stops[static_cast<std::size_t>((at + step + count) % count)]};
+    studio.model.select(selection);
+}
+
+void GradientPanel::draw(Studio& studio, model::Id key) {
+    const auto place = model::findKey(studio.model.ids(), key);
+    if (!place) {
+        return;
+    }
+    heading("Gradient");
+    strip_.draw(studio, key);
+    if (strip_.dragsAway()) {
+        ImGui::TextColored(kWarning, "Let go to delete.");
+    } else {
+        drawToggles(studio);
+    }
+    if (studio.view.brush) {
+        drawBrushFields(studio);
+    } else {
+        drawStopFields(studio, studio.model.document().lights[place->light].kind);
+    }
+    const document::Key* painted = studio.model.key(key);
+    label("between stops");
+    ImGui::SetNextItemWidth(0.5f * ImGui::GetContentRegionAvail().x -
+                            0.5f * ImGui::GetStyle().ItemSpacing.x);
+    if (const auto chosen =
+            choiceField(studio, "##interpolation",
+                        static_cast<std::size_t>(painted->gradient.interpolation),
+                        kInterpolations)) {
+        studio.runOnce(model::SetInterpolation{key, static_cast<GradientInterpolation>(*chosen)});
+    }
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1.0f);
+    if (const auto chosen = choiceField(
+            studio, "##space", static_cast<std::size_t>(painted->gradient.space), kSpaces)) {
+        studio.runOnce(model::SetSpace{key, static_cast<GradientSpace>(*chosen)});
+    }
+    drawShapeButtons(studio, key);
+}
+
+} // namespace lodestar::ui

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+#include "ui/gradient_strip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "model/ramp.h"
+#include "ui/theme.h"
+
+namespace lodestar::ui {
+namespace {
+
+using lighting::LightKind;
+
+constexpr float kRampHeight = 46.0f;
+constexpr float kHandleHeight = 20.0f;
+constexpr float kTickHeight = 20.0f;
+constexpr float kGrabPixels = 8.0f;  ///< half of a handle's width
+constexpr float kAwayPixels = 48.0f; ///< beyond the strip by so much, a drag deletes
+
+double exposureFactor(const ViewState& view) {
+    return std::exp2(view.exposure);
+}
+
+} // namespace
+
+double placeOf(double at, LightKind kind) {
+    const double share = model::fromAxis(at, kind) / 180.0;
+    return kind == LightKind::Sky ? share : std::cbrt(share);
+}
+
+double atOf(double place, LightKind kind) {
+    const double x = std::clamp(place, 0.0, 1.0);
+    return model::atFromAxis(180.0 * (kind == LightKind::Sky ? x : x * x * x), kind);
+}
+
+std::vector<double> ticksOf(LightKind kind) {
+    return kind == LightKind::Sky ? std::vector<double>{90, 60, 30, 0, -30, -60, -90}
+                                  : std::vector<double>{0, 0.1, 1, 5, 20, 60, 180};
+}
+
+struct GradientStrip::Frame {
+    const document::Key* key = nullptr;
+    model::Id id = model::Id::None;
+    std::vector<model::Id> stops; ///< in the document's order
+    LightKind kind = LightKind::Sky;
+    ImVec2 low; ///< of the ramp
+    float width = 1.0f, scale = 1.0f;
+    ImDrawList* list = nullptr;
+
+    [[nodiscard]] float x(double at) const {
+        return low.x + width * static_cast<float>(placeOf(at, kind));
+    }
+    [[nodiscard]] double at(float pixels) const {
+        return atOf(static_cast<double>((pixels - low.x) / width), kind);
+    }
+    [[nodiscard]] float bottom() const { return low.y + kRampHeight * scale; }
+    /// The stop whose handle is under a place; the last drawn of several.
+    [[nodiscard]] std::optional<std::size_t> handleAt(const ImVec2& place) const {
+        std::optional<std::size_t> found;
+        for (std::size_t i = 0; i < stops.size(); ++i) {
+            const float away = std::abs(x(key->gradient.stops[i].stop.at) - place.x);
+            if (place.y >= bottom() && away <= kGrabPixels * scale) {
+                found = i;
+            }
+        }
+        return found;
+    }
+};
+
+void GradientStrip::drawRamp(Studio& studio, const Frame& frame) const {
+    const int columns = std::max(2, static_cast<int>(frame.width / 2.0f));
+    std::vector<double> at;
+    for (int i = 0; i < columns; ++i) {
+        at.push_back(atOf((i + 0.5) / columns, frame.kind));
+    }
+    const std::vector<glm::dvec3> ramp = model::radianceAt(frame.key->gradient, frame.kind, at);
+    const double exposure = exposureFactor(studio.view);
+    for (int i = 0; i < columns; ++i) {
+        const auto edge = [&](int column) {
+            return frame.low.x + frame.width * static_cast<float>(column) /
+                                     static_cast<float>(columns);
+        };
+        const glm::dvec3& radiance = ramp[static_cast<std::size_t>(i)] * frame.key->tint;
+        frame.list->AddRectFilled({edge(i), frame.low.y}, {edge(i + 1), frame.bottom()},
+                                  studio.view.falseColor ? falseShownColor(radiance, exposure)
+                                                         : shownColor(radiance, exposure));
+    }
+    frame.list->AddRect(frame.low, {frame.low.x + frame.width, frame.bottom()},
+                        ImGui::GetColorU32(ImGuiCol_Border));
+    studio.mark("ramp", frame.low, {frame.low.x + frame.width, frame.bottom()});
+}
+
+void GradientStrip::drawTicks(const Frame& frame) {
+    const float y = frame.bottom() + kHandleHeight * frame.scale;
+    const ImU32 color = ImGui::GetColorU32(kDimText);
+    for (const double at : ticksOf(frame.kind)) {
+        const float x = frame.x(at);
+        char text[16];
+        std::snprintf(text, sizeof text, "%g\xc2\xb0", at);
+        const float width = ImGui::CalcTextSize(text).x;
+        frame.list->AddLine({x, frame.bottom()}, {x, frame.bottom() + 4.0f * frame.scale}, color);
+        const float left =
+            std::clamp(x - 0.5f * width, frame.low.x, frame.low.x + frame.width - width);
+        frame.list->AddText({left, y + 1.0f}, color, text);
+    }
+}
+
+void GradientStrip::drawStops(Studio& studio, const Frame& frame) const {
+    const std::vector<model::Id>& selected = studio.model.selection().stops;
+    const float half = 0.75f * kGrabPixels * frame.scale;
+    const float top = frame.bottom() + 2.0f;
+    for (std::size_t i = 0; i < frame.stops.size(); ++i) {
+        const lighting::GradientStop& stop = frame.key->gradient.stops[i].stop;
+        const bool chosen =
+            std::find(selected.begin(), selected.end(), frame.stops[i]) != selected.end();
+        const float x = frame.x(stop.at);
+        const ImVec2 outline[] = {{x, top},
+                                  {x + half, top + half},
+                                  {x + half, top + 2.6f * half},
+                                  {x - half, top + 2.6f * half},
+                                  {x - half, top + half}};
+        const bool leaves = chosen && away_;
+        frame.list->AddConvexPolyFilled(
+            outline, 5, shownColor(lighting::radianceOf(stop), exposureFactor(studio.view)));
+        frame.list->AddPolyline(outline, 5,
+                                ImGui::GetColorU32(leaves   ? kWarning
+                                                   : chosen ? kAccent
+                                                            : kDimText),
+                                ImDrawFlags_Closed, (chosen ? 2.5f : 1.2f) * frame.scale);
+        studio.mark("stop " + std::to_string(i), {x - half, top + half},
+                    {x + half, top + 2.6f * half});
+    }
+}
+
+void GradientStrip::press(Studio& studio, const Frame& frame, double at) {
+    moved_ = away_ = false;
+    grabbed_.clear();
+    path_.clear();
+    if (studio.view.brush) {
+        stroke(studio, frame, at);
+        return;
+    }
+    model::Selection selection = studio.model.selection();
+    const auto handle = frame.handleAt(ImGui::GetIO().MousePos);
+    model::Id grabbed = model::Id::None;
+    if (handle) {
+        grabbed = frame.stops[*handle];
+        const auto place = std::find(selection.stops.begin(), selection.stops.end(), grabbed);
+        const bool adds = ImGui::GetIO().KeyCtrl || ImGui::GetIO().KeyShift;
+        if (place != selection.stops.end() && adds) {
+            selection.stops.erase(place);
+            studio.model.select(selection);
+            return;
+        }
+        if (place == selection.stops.end()) {
+            if (!adds) {
+                selection.stops.clear();
+            }
+            selection.stops.push_back(grabbed);
+            studio.model.select(selection);
+        }
+        at = frame.key->gradient.stops[*handle].stop.at;
+    } else if (ImGui::GetIO().MousePos.y <= frame.bottom()) {
+        const auto added = studio.runOnce(model::AddStop{frame.id, at});
+        if (!added || added->created.empty()) {
+            return;
+        }
+    } else {
+        return;
+    }
+    grabbedAt_ = at;
+    for (const model::Id id : studio.model.selection().stops) {
+        if (const document::Stop* stop = studio.model.stop(id)) {
+            grabbed_.push_back({id, stop->stop.at});
+        }
+    }
+}
+
+void GradientStrip::drag(Studio& studio, const Frame& frame, double at) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const float away = std::max(frame.low.y - io.MousePos.y,
+                                io.MousePos.y - frame.bottom() - kHandleHeight * frame.scale);
+    moved_ = moved_ || ImGui::IsMouseDragging(ImGuiMouseButton_Left, 2.0f);
+    away_ = moved_ && away > kAwayPixels * frame.scale &&
+            frame.stops.size() >= grabbed_.size() + 2;
+    if (!moved_ || grabbed_.empty()) {
+        return;
+    }
+    if (studio.view.snapping != io.KeyAlt) {
+        std::vector<double> others;
+        for (std::size_t i = 0; i < frame.stops.size(); ++i) {
+            if (std::none_of(grabbed_.begin(), grabbed_.end(),
+                             [&](const model::StopMove& m) { return m.stop == frame.stops[i]; })) {
+                others.push_back(frame.key->gradient.stops[i].stop.at);
+            }
+        }
+        model::Snap snap = studio.view.snap;
+        snap.reach = std::abs(frame.at(io.MousePos.x + 6.0f * frame.scale) - at);
+        at = model::snapped(at, snap, others);
+    }
+    const model::AngleRange range = model::anglesOf(frame.kind);
+    model::MoveStops move;
+    for (const model::StopMove& from : grabbed_) {
+        move.moves.push_back(
+            {from.stop, std::clamp(from.at + at - grabbedAt_, range.least, range.most)});
+    }
+    studio.run(move);
+}
+
+void GradientStrip::release(Studio& studio, const Frame&) {
+    if (away_) {
+        model::DeleteStops gone;
+        for (const model::StopMove& from : grabbed_) {
+            gone.stops.push_back(from.stop);
+        }
+        studio.runOnce(gone);
+    }
+    away_ = moved_ = false;
+    grabbed_.clear();
+    path_.clear();
+}
+
+void GradientStrip::stroke(Studio& studio, const Frame& frame, double at) {
+    if (path_.empty() || path_.back() != at) {
+        path_.push_back(at);
+        studio.run(model::BrushStroke{frame.id, studio.view.brushSettings, path_});
+    }
+}
+
+void GradientStrip::draw(Studio& studio, model::Id key) {
+    Frame frame;
+    const auto place = model::findKey(studio.model.ids(), key);
+    if (!place) {
+        return;
+    }
+    frame.key = studio.model.key(key);
+    frame.id = key;
+    frame.stops = studio.model.ids().lights[place->light].keys[place->key].stops;
+    frame.kind = studio.model.document().lights[place->light].kind;
+    frame.scale = ImGui::GetFontSize() / 15.0f;
+    frame.low = ImGui::GetCursorScreenPos();
+    frame.width = std::max(ImGui::GetContentRegionAvail().x, 32.0f);
+    frame.list = ImGui::GetWindowDrawList();
+    const float height = (kRampHeight + kHandleHeight + kTickHeight) * frame.scale;
+    ImGui::InvisibleButton("##strip", {frame.width, height});
+    const double at = frame.at(ImGui::GetIO().MousePos.x);
+    if (ImGui::IsItemActivated()) {
+        press(studio, frame, at);
+    } else if (ImGui::IsItemActive()) {
+        !path_.empty() ? stroke(studio, frame, at) : drag(studio, frame, at);
+    } else if (ImGui::IsItemDeactivated()) {
+        release(studio, frame);
+    }
+    if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
+        ImGui::SetMouseCursor(studio.view.brush ? ImGuiMouseCursor_None : ImGuiMouseCursor_Hand);
+    }
+    // What the pointer has just done is drawn in the same frame.
+    frame.key = studio.model.key(key);
+    frame.stops = studio.model.ids().lights[place->light].keys[place->key].stops;
+    drawRamp(studio, frame);
+    drawTicks(frame);
+    drawStops(studio, frame);
+}
+
+} // namespace lodestar::ui

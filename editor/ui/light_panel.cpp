@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+
+#include <glm/trigonometric.hpp>
+
+#include "model/presets.h"
+#include "ui/fields.h"
+#include "ui/panels.h"
+#include "ui/theme.h"
+
+namespace lodestar::ui {
+namespace {
+
+void drawPresets(Studio& studio) {
+    label("preset");
+    const bool open = ImGui::BeginCombo("##preset", "choose a whole sky ...");
+    studio.mark("preset");
+    if (open) {
+        for (const model::Preset& preset : model::builtInPresets()) {
+            if (ImGui::Selectable(preset.name.c_str())) {
+                studio.runOnce(model::SetLights{preset.lights});
+            }
+            studio.mark("preset/" + preset.name);
+        }
+        ImGui::EndCombo();
+    }
+}
+
+void drawPath(Studio& studio, model::Id id, lighting::SunPath path) {
+    const glm::dvec2 north = degreesOfAxis(path.north);
+    bool changed = false;
+    label("latitude");
+    if (const auto value = numberField("##latitude", glm::degrees(path.latitude), 0.1f, -90.0,
+                                       90.0, "%.5g\xc2\xb0")) {
+        path.latitude = glm::radians(*value);
+        changed = true;
+    }
+    studio.mark("latitude");
+    label("day of year");
+    if (const auto value = numberField("##day", path.dayOfYear, 0.2f, 1.0, 366.0, "%.0f")) {
+        path.dayOfYear = static_cast<int>(std::lround(*value));
+        changed = true;
+    }
+    studio.mark("day of year");
+    label("north");
+    if (const auto value = numberField("##north", north.x, 0.2f, 0.0, 360.0, "%.5g\xc2\xb0")) {
+        path.north = axisOfDegrees({*value, 0.0});
+        changed = true;
+    }
+    if (changed) {
+        model::SetLight set;
+        set.light = id;
+        set.path.emplace(path);
+        studio.run(set);
+    }
+}
+
+/// The key's own axis where it has one, else the light's.
+void drawAxis(Studio& studio, const document::Light& light, model::Id id, model::Id keyId) {
+    const document::Key* key = studio.model.key(keyId);
+    const bool ofKey = key != nullptr && key->axis.has_value();
+    const glm::dvec3 axis = ofKey ? *key->axis : light.axis.value_or(glm::dvec3(0.0, 1.0, 0.0));
+    glm::dvec2 degrees = degreesOfAxis(axis);
+    label("azimuth");
+    const auto azimuth = numberField("##azimuth", degrees.x, 0.2f, 0.0, 360.0, "%.5g\xc2\xb0");
+    studio.mark("azimuth");
+    label("elevation");
+    const auto elevation =
+        numberField("##elevation", degrees.y, 0.1f, -89.9, 89.9, "%.5g\xc2\xb0");
+    studio.mark("axis elevation");
+    if (!azimuth && !elevation) {
+        return;
+    }
+    degrees = {azimuth.value_or(degrees.x), elevation.value_or(degrees.y)};
+    if (ofKey) {
+        model::SetKey set;
+        set.key = keyId;
+        set.axis.emplace(axisOfDegrees(degrees));
+        studio.run(set);
+    } else {
+        model::SetLight set;
+        set.light = id;
+        set.axis.emplace(axisOfDegrees(degrees));
+        studio.run(set);
+    }
+}
+
+void drawSun(Studio& studio, const document::Light& light, model::Id id, model::Id keyId) {
+    bool follows = light.path.has_value();
+    label("path");
+    if (ImGui::Checkbox("by place and date", &follows)) {
+        model::SetLight set;
+        set.light = id;
+        set.path.emplace(follows ? std::optional(lighting::SunPath{glm::radians(45.0), 172,
+                                                                   {0.0, 0.0, -1.0}})
+                                 : std::nullopt);
+        studio.runOnce(set);
+        return; // the light is another now
+    }
+    studio.mark("by place and date");
+    if (light.path) {
+        drawPath(studio, id, *light.path);
+    } else {
+        drawAxis(studio, light, id, keyId);
+    }
+}
+
+} // namespace
+
+void drawLightPanel(Studio& studio) {
+    heading("Light");
+    drawPresets(studio);
+    const auto index = model::findLight(studio.model.ids(), studio.chosenLight());
+    if (!index) {
+        ImGui::TextColored(kDimText, "No light: choose a preset, or add one at the left.");
+        return;
+    }
+    const document::Light light = studio.model.document().lights[*index];
+    const model::Id id = studio.model.ids().lights[*index].id;
+    if (light.kind == lighting::LightKind::Sun) {
+        drawSun(studio, light, id, studio.chosenKey());
+    }
+    const model::Id keyId = studio.chosenKey();
+    if (const document::Key* key = studio.model.key(keyId)) {
+        label("key's tint");
+        if (const auto tint = colorField("tint", key->tint, 1e9, 1.0)) {
+            model::SetKey set;
+            set.key = keyId;
+            set.tint = *tint;
+            studio.run(set);
+        }
+        studio.mark("tint");
+    }
+}
+
+} // namespace lodestar::ui

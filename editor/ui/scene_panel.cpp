@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "model/presets.h"
+#include "ui/fields.h"
+#include "ui/panels.h"
+#include "ui/theme.h"
+
+namespace lodestar::ui {
+namespace {
+
+/// A new light looks like the first preset's of its kind.
+void addLight(Studio& studio, lighting::LightKind kind) {
+    for (const model::Preset& preset : model::builtInPresets()) {
+        for (const document::Light& light : preset.lights) {
+            if (light.kind == kind) {
+                studio.runOnce(model::AddLight{light});
+                return;
+            }
+        }
+    }
+}
+
+void drawLights(Studio& studio) {
+    const model::Id chosen = studio.chosenLight();
+    for (std::size_t i = 0; i < studio.model.ids().lights.size(); ++i) {
+        const document::Light& light = studio.model.document().lights[i];
+        const model::Id id = studio.model.ids().lights[i].id;
+        const std::string name = light.name.empty() ? "light " + std::to_string(i) : light.name;
+        ImGui::PushID(static_cast<int>(i));
+        if (ImGui::Selectable(name.c_str(), id == chosen)) {
+            model::Selection selection;
+            selection.light = id;
+            selection.materials = studio.model.selection().materials;
+            studio.model.select(selection);
+        }
+        studio.mark("light " + std::to_string(i));
+        ImGui::SameLine(ImGui::GetContentRegionMax().x - 2.2f * ImGui::GetFontSize());
+        ImGui::TextColored(kDimText, "%s",
+                           light.kind == lighting::LightKind::Sky ? "sky" : "sun");
+        ImGui::PopID();
+    }
+    if (button(studio, "Add sky", "")) {
+        addLight(studio, lighting::LightKind::Sky);
+    }
+    ImGui::SameLine();
+    if (button(studio, "Add sun", "")) {
+        addLight(studio, lighting::LightKind::Sun);
+    }
+    if (chosen != model::Id::None) {
+        ImGui::SameLine();
+        if (button(studio, "Remove", "the light that is chosen")) {
+            studio.runOnce(model::RemoveLight{chosen});
+        }
+    }
+}
+
+void drawMaterials(Studio& studio) {
+    for (std::size_t i = 0; i < studio.around.materials.size(); ++i) {
+        const MaterialLine& material = studio.around.materials[i];
+        model::Selection selection = studio.model.selection();
+        const auto place =
+            std::find(selection.materials.begin(), selection.materials.end(), material.key);
+        const bool selected = place != selection.materials.end();
+        ImGui::PushID(static_cast<int>(i));
+        if (ImGui::Selectable(material.key.c_str(), selected)) {
+            if (!ImGui::GetIO().KeyCtrl) {
+                selection.materials = {material.key};
+            } else if (selected) {
+                selection.materials.erase(place);
+            } else {
+                selection.materials.push_back(material.key);
+            }
+            studio.model.select(selection);
+        }
+        studio.mark("material " + std::to_string(i));
+        ImGui::SameLine(ImGui::GetContentRegionMax().x - 4.0f * ImGui::GetFontSize());
+        ImGui::TextColored(kDimText, "%.4g", material.exponent);
+        ImGui::PopID();
+    }
+}
+
+void drawNodes(Studio& studio) {
+    const float step = ImGui::GetFontSize();
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(studio.around.nodes.size()));
+    while (clipper.Step()) {
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+            const NodeLine& node = studio.around.nodes[static_cast<std::size_t>(i)];
+            ImGui::SetCursorPosX(ImGui::GetCursorPosX() +
+                                 step * static_cast<float>(std::min(node.depth, 12)));
+            ImGui::TextUnformatted(node.name.c_str());
+            if (!node.holds.empty()) {
+                ImGui::SameLine();
+                ImGui::TextColored(kDimText, "%s", node.holds.c_str());
+            }
+        }
+    }
+}
+
+} // namespace
+
+void drawScenePanel(Studio& studio) {
+    ImGui::TextColored(kDimText, "%s", studio.around.sceneName.c_str());
+    heading("Lights");
+    drawLights(studio);
+    heading("Materials");
+    drawMaterials(studio);
+    heading("Nodes");
+    drawNodes(studio);
+}
+
+} // namespace lodestar::ui

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "ui/session.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include "ui/assertions.h"
+#include "ui/theme.h"
+
+namespace lodestar::ui {
+namespace {
+
+/// Frames until a layout stands still after an input: one that shows it, one in which widgets that
+/// were measured in it take their places, one in which what follows from those does.
+constexpr int kFramesToSettle = 3;
+
+} // namespace
+
+Session::Session(Drawing drawing, Clipboard clipboard)
+    : drawing_(drawing), clipboard_(std::move(clipboard)) {
+    start();
+}
+
+Session::~Session() {
+    ImGui::SetCurrentContext(context_);
+    if (drawing_ == Drawing::OpenGl) {
+        ImGui_ImplOpenGL3_Shutdown();
+    }
+    ImGui::DestroyContext(context_);
+}
+
+void Session::start() {
+    IMGUI_CHECKVERSION();
+    context_ = ImGui::CreateContext();
+    ImGui::SetCurrentContext(context_);
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.LogFilename = nullptr;
+    io.ConfigInputTextCursorBlink = false; // an editor at rest draws nothing
+    io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+    io.BackendPlatformName = "lodestar";
+    mapKeys(io);
+    if (clipboard_.text && clipboard_.set) {
+        io.ClipboardUserData = this;
+        io.GetClipboardTextFn = [](void* self) {
+            auto& session = *static_cast<Session*>(self);
+            session.clipboardText_ = session.clipboard_.text();
+            return session.clipboardText_.c_str();
+        };
+        io.SetClipboardTextFn = [](void* self, const char* text) {
+            static_cast<Session*>(self)->clipboard_.set(text);
+        };
+    }
+    if (drawing_ == Drawing::OpenGl) {
+        ImGui_ImplOpenGL3_Init("#version 330 core");
+    }
+    scale_ = 0.0f;
+    framesWanted_ = kFramesToSettle;
+}
+
+void Session::push(const Input& input) {
+    queue_.push(input);
+    framesWanted_ = kFramesToSettle;
+}
+
+void Session::useScale(float scale) {
+    const float wanted = std::isfinite(scale) ? std::clamp(scale, 1.0f, 8.0f) : 1.0f;
+    if (wanted == scale_) {
+        return;
+    }
+    scale_ = wanted;
+    applyTheme(scale_);
+    if (drawing_ == Drawing::OpenGl) {
+        ImGui_ImplOpenGL3_DestroyDeviceObjects(); // made anew with the next frame
+    } else {
+        unsigned char* pixels = nullptr;
+        int width = 0;
+        int height = 0;
+        ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
+    }
+}
+
+void Session::frame(int width, int height, float scale, double seconds,
+                    const std::function<void()>& contents) {
+    ImGui::SetCurrentContext(context_);
+    framesWanted_ = std::max(framesWanted_ - 1, 0);
+    ++framesBuilt_;
+    failure_ = guarded([&] {
+        useScale(scale);
+        ImGuiIO& io = ImGui::GetIO();
+        io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
+        io.DeltaTime = static_cast<float>(std::clamp(seconds, 1e-4, 1.0));
+        queue_.feed(io);
+        if (drawing_ == Drawing::OpenGl) {
+            ImGui_ImplOpenGL3_NewFrame();
+        }
+        ImGui::NewFrame();
+        contents();
+        ImGui::Render();
+    });
+    whole_ = failure_.empty();
+    if (!whole_) {
+        // What the old context holds of the frame cannot be told: it is left as it is.
+        if (drawing_ == Drawing::OpenGl) {
+            ImGui_ImplOpenGL3_Shutdown();
+        }
+        start();
+    } else if (!queue_.empty()) {
+        framesWanted_ = kFramesToSettle;
+    }
+}
+
+void Session::render() {
+    if (whole_) {
+        ImGui::SetCurrentContext(context_);
+        ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    }
+}
+
+} // namespace lodestar::ui

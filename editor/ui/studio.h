@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+//
+// What the panels share: what they are shown, what is chosen of how it is looked at, and what they
+// want of whoever runs them. Degrees and sRGB here; the model's values stay linear radiance.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <imgui.h>
+
+#include "gl/device.h"
+#include "model/model.h"
+#include "plan/effect_plan.h"
+
+namespace lodestar::ui {
+
+/// A node of the scene as a line of its tree.
+struct NodeLine {
+    std::string name;
+    int depth = 0;
+    std::string holds; ///< "mesh", "camera", ...
+};
+
+/// A material of the scene as it is drawn now.
+struct MaterialLine {
+    std::string key;  ///< what a document calls it: its glTF name, else "#index"
+    double exponent = 0.0; ///< Blinn-Phong [0, 1e7]
+    glm::dvec3 diffuse{0.0}, f0{0.0}; ///< reflectances
+    std::string specular; ///< estimator; empty: the frame's
+};
+
+/// What the panels are shown besides the document.
+struct Surroundings {
+    std::string sceneName, documentName;
+    std::vector<NodeLine> nodes;
+    std::vector<MaterialLine> materials;
+    std::vector<std::string> estimators; ///< that a material may have
+    unsigned picture = 0;                ///< a GL texture of the viewport; 0: none
+    std::shared_ptr<const plan::EffectPlan> plan;
+    std::map<std::string, double> timesMs; ///< of the last frame, by step
+    gl::WorkCounters counters;             ///< of the last frame
+};
+
+/// How the picture is looked at: not part of the document.
+struct ViewState {
+    double hour = 15.0; ///< [0, 24)
+    bool playing = false;
+    double hoursASecond = 0.4;
+    double exposure = 0.0; ///< stops, +-20
+    bool falseColor = false;
+    bool picking = false; ///< the next click in the viewport gives a radiance
+    bool brush = false;   ///< the painter paints freehand
+    model::Brush brushSettings;
+    model::Snap snap{5.0, true, true, 0.0};
+    bool snapping = false;
+    bool help = false;
+    std::string estimator = "tent"; ///< of the frame
+};
+
+/// How the camera is to move; framebuffer pixels.
+struct CameraMove {
+    glm::vec2 orbit{0.0f}, look{0.0f}, pan{0.0f};
+    float dolly = 0.0f;
+    glm::vec3 fly{0.0f}; ///< right, up, forward: -1, 0 or 1
+    bool fast = false;
+    bool frameAll = false, reset = false;
+    bool operator==(const CameraMove&) const = default;
+};
+
+/// What a frame of the panels asks for.
+struct Wishes {
+    bool save = false, quit = false;
+    std::optional<std::string> saveAs, openScene, openLighting;
+    CameraMove camera;
+    std::optional<glm::ivec2> pick; ///< a pixel of the viewport, from its top left
+    /// The viewport in the framebuffer: left, top, width, height in pixels.
+    std::array<int, 4> viewport{};
+};
+
+/// A rectangle of the framebuffer, for whoever drives the panels by synthetic input.
+struct Mark {
+    ImVec2 low, high;
+    [[nodiscard]] ImVec2 center() const {
+        return {0.5f * (low.x + high.x), 0.5f * (low.y + high.y)};
+    }
+};
+
+/// A line of the log.
+struct LogLine {
+    std::string text;
+    bool isError = false;
+};
+
+/// What is handed from panel to panel in a frame.
+class Studio {
+public:
+    Studio(model::Model& edited, const Surroundings& surroundings, ViewState& viewState)
+        : model(edited), around(surroundings), view(viewState) {}
+
+    model::Model& model;
+    const Surroundings& around;
+    ViewState& view;
+    Wishes wishes;
+
+    /// Carries a command out; a refusal is a line of the log. What one widget does while it is held
+    /// is one step of undo.
+    /// @return what it did; nothing where it was refused
+    std::optional<model::Outcome> run(const model::Command& command);
+    /// The same as a step of its own.
+    std::optional<model::Outcome> runOnce(const model::Command& command);
+    void say(std::string text, bool isError = false);
+
+    /// Names the last widget, or a rectangle.
+    void mark(const std::string& name);
+    void mark(const std::string& name, const ImVec2& low, const ImVec2& high);
+
+    /// The key that is painted: the selection's, else the first light's at or before the hour.
+    [[nodiscard]] model::Id chosenKey() const;
+    [[nodiscard]] model::Id chosenLight() const;
+
+    std::map<std::string, Mark> marks;
+    std::deque<LogLine> log;
+
+private:
+    friend class Workspace;
+    model::MergeToken token_ = 0;
+    ImGuiID holder_ = 0; ///< the widget that token_ belongs to
+};
+
+} // namespace lodestar::ui

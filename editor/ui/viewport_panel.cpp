@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <cstdint>
+
+#include "ui/panels.h"
+#include "ui/theme.h"
+
+namespace lodestar::ui {
+namespace {
+
+bool held(Key key) {
+    return ImGui::IsKeyDown(static_cast<int>(key));
+}
+
+float along(Key positive, Key negative) {
+    return (held(positive) ? 1.0f : 0.0f) - (held(negative) ? 1.0f : 0.0f);
+}
+
+/// Left orbits, middle or shift + left pans, right looks around, and W A S D Q E fly meanwhile.
+void moveCamera(CameraMove& move) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const glm::vec2 delta(io.MouseDelta.x, io.MouseDelta.y);
+    if (io.MouseDown[2] || (io.MouseDown[0] && io.KeyShift)) {
+        move.pan = delta;
+    } else if (io.MouseDown[1]) {
+        move.look = delta;
+        move.fly = {along(Key::D, Key::A), along(Key::E, Key::Q), along(Key::W, Key::S)};
+        move.fast = io.KeyShift;
+    } else if (io.MouseDown[0]) {
+        move.orbit = delta;
+    }
+}
+
+} // namespace
+
+void drawViewport(Studio& studio) {
+    const ImVec2 low = ImGui::GetCursorScreenPos();
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    const ImVec2 size(std::floor(std::max(room.x, 1.0f)), std::floor(std::max(room.y, 1.0f)));
+    studio.wishes.viewport = {static_cast<int>(low.x), static_cast<int>(low.y),
+                              static_cast<int>(size.x), static_cast<int>(size.y)};
+    ImGui::InvisibleButton("##viewport", size,
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                               ImGuiButtonFlags_MouseButtonMiddle);
+    studio.mark("viewport");
+    if (ImGui::IsItemHovered()) {
+        studio.wishes.camera.dolly = ImGui::GetIO().MouseWheel;
+    }
+    if (studio.view.picking && ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("Click gives the selected stops this radiance.");
+    }
+    if (studio.view.picking && ImGui::IsItemActivated()) {
+        studio.wishes.pick = glm::ivec2(static_cast<int>(ImGui::GetIO().MousePos.x - low.x),
+                                        static_cast<int>(ImGui::GetIO().MousePos.y - low.y));
+        studio.view.picking = false;
+    } else if (ImGui::IsItemActive()) {
+        moveCamera(studio.wishes.camera);
+    }
+    if (studio.around.picture != 0) {
+        // Row 0 of a drawn picture is at the bottom.
+        ImGui::GetWindowDrawList()->AddImage(
+            reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(studio.around.picture)), low,
+            {low.x + size.x, low.y + size.y}, {0.0f, 1.0f}, {1.0f, 0.0f});
+    }
+}
+
+} // namespace lodestar::ui

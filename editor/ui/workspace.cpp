@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: MIT
+#include "ui/workspace.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <imgui_stdlib.h>
+
+#include "lighting/day.h"
+#include "model/ramp.h"
+#include "ui/actions.h"
+#include "ui/fields.h"
+#include "ui/theme.h"
+
+namespace lodestar::ui {
+namespace {
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                    ImGuiWindowFlags_NoSavedSettings |
+                                    ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+/// A panel that has its place. @return as ImGui::Begin
+bool beginPanel(const char* name, float left, float top, float right, float bottom,
+                ImGuiWindowFlags more = 0) {
+    ImGui::SetNextWindowPos({std::floor(left), std::floor(top)});
+    ImGui::SetNextWindowSize({std::max(std::floor(right) - std::floor(left), 1.0f),
+                              std::max(std::floor(bottom) - std::floor(top), 1.0f)});
+    return ImGui::Begin(name, nullptr, (kFixed & ~ImGuiWindowFlags_NoScrollbar) | more);
+}
+
+} // namespace
+
+Wishes Workspace::draw(model::Model& model, const Surroundings& surroundings) {
+    Studio studio(model, surroundings, view_);
+    studio.log = std::move(log_);
+    studio.token_ = token_;
+    studio.holder_ = holder_;
+    const auto keep = [&] {
+        log_ = std::move(studio.log);
+        marks_ = std::move(studio.marks);
+        token_ = studio.token_;
+        holder_ = studio.holder_;
+    };
+    try {
+        answerKeys(studio);
+        drawMenus(studio);
+        drawPanels(studio, ImGui::GetFrameHeight());
+        drawPrompts(studio);
+        drawQuestion(studio);
+        drawHelp();
+    } catch (...) { // an assertion of Dear ImGui's: what was said stays said
+        keep();
+        throw;
+    }
+    keep();
+    return studio.wishes;
+}
+
+void Workspace::say(std::string text, bool isError) {
+    log_.push_back({std::move(text), isError});
+}
+
+void Workspace::givePicked(model::Model& model, const glm::dvec3& radiance) {
+    if (view_.brush) {
+        view_.brushSettings.color = radiance;
+        return;
+    }
+    const std::vector<model::Id>& stops = model.selection().stops;
+    if (stops.empty()) {
+        say("no stop is selected to get the radiance", true);
+        return;
+    }
+    const lighting::GradientStop picked = model::stopOf(0.0, radiance);
+    if (auto given = model.execute(model::SetStops{stops, {}, picked.color, picked.ev}); !given) {
+        say(given.error().message(), true);
+    }
+}
+
+void Workspace::drawMenus(Studio& studio) {
+    if (!ImGui::BeginMainMenuBar()) {
+        return;
+    }
+    constexpr std::pair<Menu, const char*> kMenus[] = {{Menu::File, "File"},
+                                                       {Menu::Edit, "Edit"},
+                                                       {Menu::Gradient, "Gradient"},
+                                                       {Menu::View, "View"},
+                                                       {Menu::Help, "Help"}};
+    for (const auto& [menu, name] : kMenus) {
+        const bool open = ImGui::BeginMenu(name);
+        studio.mark(std::string("menu ") + name);
+        if (!open) {
+            continue;
+        }
+        for (const Binding& binding : bindings()) {
+            if (binding.menu != menu) {
+                continue;
+            }
+            std::string label = binding.label;
+            if (binding.action == Action::Undo || binding.action == Action::Redo) {
+                const std::string_view step = binding.action == Action::Undo
+                                                  ? studio.model.undoName()
+                                                  : studio.model.redoName();
+                label += step.empty() ? "" : " " + std::string(step);
+                label += binding.action == Action::Undo ? "##undo" : "##redo";
+            }
+            if (ImGui::MenuItem(label.c_str(), shortcutText(binding).c_str())) {
+                perform(studio, binding);
+            }
+            studio.mark(binding.label);
+        }
+        ImGui::EndMenu();
+    }
+    const std::string title = studio.around.documentName + (studio.model.dirty() ? " *" : "");
+    ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(title.c_str()).x -
+                    ImGui::GetFontSize());
+    ImGui::TextColored(kDimText, "%s", title.c_str());
+    ImGui::EndMainMenuBar();
+}
+
+void Workspace::drawPanels(Studio& studio, float top) {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const float em = ImGui::GetFontSize();
+    const float left = std::min(16.0f * em, 0.25f * size.x);
+    const float right = size.x - std::min(25.0f * em, 0.4f * size.x);
+    const float report = size.y - std::min(11.0f * em, 0.25f * size.y);
+    const float day = report - std::min(9.5f * em, 0.25f * size.y);
+    beginPanel("Scene", 0.0f, top, left, size.y);
+    drawScenePanel(studio);
+    ImGui::End();
+    beginPanel("Properties", right, top, size.x, size.y);
+    drawLightPanel(studio);
+    gradient_.draw(studio, studio.chosenKey());
+    drawMaterialPanel(studio);
+    ImGui::End();
+    beginPanel("Day", left, day, right, report, ImGuiWindowFlags_NoScrollbar);
+    day_.draw(studio);
+    ImGui::End();
+    beginPanel("Report", left, report, right, size.y, ImGuiWindowFlags_NoScrollbar);
+    drawReportPanel(studio);
+    ImGui::End();
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
+    beginPanel("Viewport", left, top, right, day,
+               ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoNav |
+                   ImGuiWindowFlags_NoScrollWithMouse);
+    drawViewport(studio);
+    ImGui::End();
+    ImGui::PopStyleVar(2);
+}
+
+void Workspace::drawPrompts(Studio& studio) {
+    if (prompt_ == Prompt::None) {
+        return;
+    }
+    const char* titles[] = {"", "Open scene (.gltf, .glb)", "Open lighting (.lodestar.json)",
+                            "Save lighting as"};
+    const char* title = titles[static_cast<int>(prompt_)];
+    if (promptOpens_) {
+        ImGui::OpenPopup(title);
+        promptOpens_ = false;
+    }
+    ImGui::SetNextWindowPos({0.5f * ImGui::GetIO().DisplaySize.x, 0.3f * ImGui::GetIO().DisplaySize.y},
+                            ImGuiCond_Always, {0.5f, 0.0f});
+    if (!ImGui::BeginPopupModal(title, nullptr,
+                                ImGuiWindowFlags_AlwaysAutoResize |
+                                    ImGuiWindowFlags_NoSavedSettings)) {
+        prompt_ = Prompt::None;
+        return;
+    }
+    ImGui::SetNextItemWidth(32.0f * ImGui::GetFontSize());
+    if (ImGui::IsWindowAppearing()) {
+        ImGui::SetKeyboardFocusHere();
+    }
+    bool done = ImGui::InputTextWithHint("##path", "path", &path_,
+                                         ImGuiInputTextFlags_EnterReturnsTrue);
+    studio.mark("path");
+    done = ImGui::Button("OK") || done;
+    studio.mark("OK");
+    ImGui::SameLine();
+    const bool cancelled =
+        ImGui::Button("Cancel") || ImGui::IsKeyPressed(static_cast<int>(Key::Escape));
+    if (done && !path_.empty()) {
+        auto& wish = prompt_ == Prompt::SaveAs      ? studio.wishes.saveAs
+                     : prompt_ == Prompt::OpenScene ? studio.wishes.openScene
+                                                    : studio.wishes.openLighting;
+        wish = path_;
+    }
+    if (done || cancelled) {
+        ImGui::CloseCurrentPopup();
+        prompt_ = Prompt::None;
+    }
+    ImGui::EndPopup();
+}
+
+void Workspace::drawQuestion(Studio& studio) {
+    constexpr const char* kTitle = "The lighting has unsaved changes";
+    if (asksQuit_ && !ImGui::IsPopupOpen(kTitle)) {
+        ImGui::OpenPopup(kTitle);
+    }
+    asksQuit_ = false;
+    ImGui::SetNextWindowPos({0.5f * ImGui::GetIO().DisplaySize.x, 0.3f * ImGui::GetIO().DisplaySize.y},
+                            ImGuiCond_Always, {0.5f, 0.0f});
+    if (!ImGui::BeginPopupModal(kTitle, nullptr,
+                                ImGuiWindowFlags_AlwaysAutoResize |
+                                    ImGuiWindowFlags_NoSavedSettings)) {
+        return;
+    }
+    const bool save = ImGui::Button("Save and quit");
+    studio.mark("Save and quit");
+    ImGui::SameLine();
+    const bool discard = ImGui::Button("Quit without saving");
+    studio.mark("Quit without saving");
+    ImGui::SameLine();
+    const bool stay = ImGui::Button("Stay") || ImGui::IsKeyPressed(static_cast<int>(Key::Escape));
+    studio.mark("Stay");
+    studio.wishes.save = studio.wishes.save || save;
+    studio.wishes.quit = save || discard;
+    if (save || discard || stay) {
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::EndPopup();
+}
+
+void Workspace::drawHelp() {
+    if (!view_.help) {
+        return;
+    }
+    ImGui::SetNextWindowPos({0.5f * ImGui::GetIO().DisplaySize.x, 0.5f * ImGui::GetIO().DisplaySize.y},
+                            ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::Begin("Keys", &view_.help,
+                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove);
+    if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+        const auto row = [](const std::string& keys, const char* does) {
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            ImGui::TextColored(kAccent, "%s", keys.c_str());
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(does);
+        };
+        for (const Binding& binding : bindings()) {
+            row(shortcutText(binding), binding.label);
+        }
+        row("left drag", "orbit; on the strip: add or move stops, off it: delete them");
+        row("middle drag, Shift + left drag", "pan");
+        row("right drag, with W A S D Q E", "look around and fly; Shift is faster");
+        row("wheel", "nearer, farther");
+        row("Tab, arrows, Space", "reach every field without the pointer");
+        row("Ctrl + click, Enter", "type a number");
+        ImGui::EndTable();
+    }
+    ImGui::End();
+}
+
+void Workspace::answerKeys(Studio& studio) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool modal = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId);
+    if (io.WantTextInput || modal || io.KeyAlt || io.MouseDown[1]) {
+        return;
+    }
+    for (const Binding& binding : bindings()) {
+        const bool plus = binding.key == Key::Plus; // on a US keyboard it is a shifted key
+        if (binding.control == io.KeyCtrl && (binding.shift == io.KeyShift || plus) &&
+            ImGui::IsKeyPressed(static_cast<int>(binding.key), binding.repeats)) {
+            perform(studio, binding);
+        }
+    }
+}
+
+void Workspace::perform(Studio& studio, const Binding& binding) {
+    constexpr double kHourStep = 0.25;
+    constexpr double kExposureStep = 0.25;
+    const auto ask = [&](Prompt prompt) {
+        prompt_ = prompt;
+        promptOpens_ = true;
+        path_.clear();
+    };
+    if (performOnGradient(studio, binding)) {
+        return;
+    }
+    switch (binding.action) {
+    case Action::Open:
+        return ask(Prompt::OpenScene);
+    case Action::OpenLighting:
+        return ask(Prompt::OpenLighting);
+    case Action::SaveAs:
+        return ask(Prompt::SaveAs);
+    case Action::Save:
+        studio.wishes.save = true;
+        break;
+    case Action::Quit:
+        studio.model.dirty() ? askBeforeQuit() : void(studio.wishes.quit = true);
+        break;
+    case Action::Undo:
+        (void)studio.model.undo();
+        break;
+    case Action::Redo:
+        (void)studio.model.redo();
+        break;
+    case Action::FrameAll:
+        studio.wishes.camera.frameAll = true;
+        break;
+    case Action::ResetCamera:
+        studio.wishes.camera.reset = true;
+        break;
+    case Action::Brighter:
+    case Action::Darker:
+        view_.exposure += binding.action == Action::Brighter ? kExposureStep : -kExposureStep;
+        view_.exposure = std::clamp(view_.exposure, -20.0, 20.0);
+        break;
+    case Action::FalseColor:
+        view_.falseColor = !view_.falseColor;
+        break;
+    case Action::HourLater:
+    case Action::HourEarlier:
+        view_.hour = lighting::wrappedHour(
+            view_.hour + (binding.action == Action::HourLater ? kHourStep : -kHourStep));
+        break;
+    case Action::PlayDay:
+        view_.playing = !view_.playing;
+        break;
+    case Action::Help:
+        view_.help = !view_.help;
+        break;
+    default:
+        break;
+    }
+}
+
+} // namespace lodestar::ui

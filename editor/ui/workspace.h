@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+//
+// All of the editor's panels in a layout that fills the display: draws into the current ImGui
+// frame, edits the model, and says what else it wants as values.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <string>
+
+#include "ui/panels.h"
+#include "ui/studio.h"
+
+namespace lodestar::ui {
+
+struct Binding;
+
+class Workspace {
+public:
+    /// One frame. @pre an ImGui frame has begun; the model's selection may change too
+    /// @return what the frame asks for
+    Wishes draw(model::Model& model, const Surroundings& surroundings);
+
+    [[nodiscard]] ViewState& view() { return view_; }
+    [[nodiscard]] const ViewState& view() const { return view_; }
+    void say(std::string text, bool isError = false);
+    /// A radiance that was picked in the viewport: selected stops get it, or the brush.
+    void givePicked(model::Model& model, const glm::dvec3& radiance);
+    /// Asks whether unsaved changes are to be saved before the end.
+    void askBeforeQuit() { asksQuit_ = true; }
+
+    /// Where things were drawn in the last frame, by name.
+    [[nodiscard]] const std::map<std::string, Mark>& marks() const { return marks_; }
+    [[nodiscard]] const std::deque<LogLine>& log() const { return log_; }
+
+private:
+    void drawMenus(Studio& studio);
+    void drawPanels(Studio& studio, float top);
+    void drawPrompts(Studio& studio);
+    void drawQuestion(Studio& studio);
+    void drawHelp();
+    void answerKeys(Studio& studio);
+    void perform(Studio& studio, const Binding& binding);
+    bool performOnGradient(Studio& studio, const Binding& binding);
+
+    /// A path that is asked for.
+    enum class Prompt { None, OpenScene, OpenLighting, SaveAs };
+
+    ViewState view_;
+    GradientPanel gradient_;
+    DayPanel day_;
+    std::map<std::string, Mark> marks_;
+    std::deque<LogLine> log_;
+    model::MergeToken token_ = 0;
+    ImGuiID holder_ = 0;
+    Prompt prompt_ = Prompt::None;
+    bool promptOpens_ = false;
+    bool asksQuit_ = false;
+    std::string path_;
+};
+
+} // namespace lodestar::ui
