@@ -21,6 +21,7 @@ int runProgram(int argc, char** argv) {
                "4 no usable OpenGL, 5 an output could not be written.");
     addRender(app, status);
     addView(app, status);
+    addEdit(app, status);
     addPlan(app, status);
     addSample(app, status);
     addBake(app, status);

@@ -27,15 +27,27 @@ double exponentFromSlider(float place) {
     return std::clamp(std::exp2(static_cast<double>(place)) - 1.0, 0.0, kMostExponent);
 }
 
-void drawExponent(Studio& studio, const MaterialLine& material,
-                  const std::vector<std::string>& names) {
+/// What sets one number of a material. One that is given by roughness and metalness gets all three,
+/// as they look now, so that the others stay.
+model::SetMaterials setterFor(const MaterialLine& material, const std::vector<std::string>& names) {
     model::SetMaterials set;
     set.names = names;
+    if (!material.direct && names.size() == 1) {
+        set.exponent = material.exponent;
+        set.diffuse = material.diffuse;
+        set.f0 = material.f0;
+    }
+    return set;
+}
+
+void drawExponent(Studio& studio, const MaterialLine& material,
+                  const std::vector<std::string>& names) {
+    std::optional<double> wanted;
     label("exponent");
     float place = sliderFromExponent(material.exponent);
     if (ImGui::SliderFloat("##slide", &place, 0.0f, sliderFromExponent(kMostExponent), "",
                            ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput)) {
-        set.exponent = exponentFromSlider(place);
+        wanted = exponentFromSlider(place);
     }
     studio.mark("exponent slider");
     label("");
@@ -43,10 +55,12 @@ void drawExponent(Studio& studio, const MaterialLine& material,
             numberField("##exponent", material.exponent,
                         static_cast<float>(0.01 * (1.0 + material.exponent)), 0.0, kMostExponent,
                         "%.6g")) {
-        set.exponent = *typed;
+        wanted = *typed;
     }
     studio.mark("exponent");
-    if (set.exponent) {
+    if (wanted) {
+        model::SetMaterials set = setterFor(material, names);
+        set.exponent = *wanted;
         studio.run(set);
     }
     label("");
@@ -60,16 +74,14 @@ void drawReflectances(Studio& studio, const MaterialLine& material,
                       const std::vector<std::string>& names) {
     label("diffuse");
     if (const auto value = colorField("diffuse", material.diffuse, 1.0, 1.0)) {
-        model::SetMaterials set;
-        set.names = names;
+        model::SetMaterials set = setterFor(material, names);
         set.diffuse = *value;
         studio.run(set);
     }
     studio.mark("diffuse");
     label("f0");
     if (const auto value = colorField("f0", material.f0, 1.0, 1.0)) {
-        model::SetMaterials set;
-        set.names = names;
+        model::SetMaterials set = setterFor(material, names);
         set.f0 = *value;
         studio.run(set);
     }

@@ -18,6 +18,7 @@
 
 #include "gl/device.h"
 #include "model/model.h"
+#include "model/ramp.h"
 #include "plan/effect_plan.h"
 
 namespace lodestar::ui {
@@ -35,6 +36,7 @@ struct MaterialLine {
     double exponent = 0.0; ///< Blinn-Phong [0, 1e7]
     glm::dvec3 diffuse{0.0}, f0{0.0}; ///< reflectances
     std::string specular; ///< estimator; empty: the frame's
+    bool direct = false; ///< its Blinn-Phong numbers are given, not its roughness and metalness
 };
 
 /// What the panels are shown besides the document.

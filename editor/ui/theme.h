@@ -9,11 +9,11 @@
 namespace lodestar::ui {
 
 /// Text whose contrast with panels is 11 : 1, and dimmer text at 5 : 1 (WCAG 2.1 asks 4.5).
-inline constexpr ImVec4 kText{0.88f, 0.89f, 0.90f, 1.0f};
-inline constexpr ImVec4 kDimText{0.60f, 0.62f, 0.65f, 1.0f};
-inline constexpr ImVec4 kPanel{0.125f, 0.130f, 0.140f, 1.0f};
-inline constexpr ImVec4 kAccent{0.93f, 0.64f, 0.25f, 1.0f}; ///< selected, playing, dragged
-inline constexpr ImVec4 kWarning{1.0f, 0.55f, 0.45f, 1.0f};
+inline const ImVec4 kText{0.88f, 0.89f, 0.90f, 1.0f};
+inline const ImVec4 kDimText{0.60f, 0.62f, 0.65f, 1.0f};
+inline const ImVec4 kPanel{0.125f, 0.130f, 0.140f, 1.0f};
+inline const ImVec4 kAccent{0.93f, 0.64f, 0.25f, 1.0f}; ///< selected, playing, dragged
+inline const ImVec4 kWarning{1.0f, 0.55f, 0.45f, 1.0f};
 
 /// Sets style, sizes and fonts of the current context. @param scale of the display, 1 to 8
 void applyTheme(float scale);

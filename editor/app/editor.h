@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+//
+// `lodestar edit` without its window: events in, frames out, so that tests drive it without a
+// display. What edits is editor/model, what is shown are editor/ui's panels; here they meet a scene
+// and its renderer.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/scene_lighting.h"
+#include "gl/framebuffer.h"
+#include "model/document_file.h"
+#include "model/model.h"
+#include "platform/window.h"
+#include "scene/camera_controller.h"
+#include "scene/renderer.h"
+#include "ui/session.h"
+#include "ui/workspace.h"
+
+namespace lodestar::app {
+
+struct EditorOptions {
+    std::string scene;    ///< empty: the built-in spheres
+    std::string lighting; ///< empty: the document beside the scene, to be made where there is none
+    std::string assetRoot;
+};
+
+class Editor {
+public:
+    /// @errors as `load`'s: what a named file is refused for
+    [[nodiscard]] static core::Result<std::unique_ptr<Editor>>
+    make(gl::Device& device, const EditorOptions& options, ui::Clipboard clipboard);
+
+    void handle(const platform::Event& event);
+    /// What moves by itself does so. @param seconds since the last call
+    void advance(double seconds);
+    /// Whether a frame would differ from the last one.
+    [[nodiscard]] bool wantsFrame() const;
+    /// Seconds until something is due without an event; 0: now.
+    [[nodiscard]] double patience() const;
+    /// Builds the panels, brings the scene's light up to date, draws both into a framebuffer. A
+    /// stroke is in the picture of the frame that it was made in.
+    /// @param width @param height framebuffer pixels, > 0  @param scale of the display
+    /// @errors NoOpenGl, Internal: the first frame; later ones say so in the log
+    [[nodiscard]] core::Result<void> drawFrame(int width, int height, float scale,
+                                               unsigned framebuffer = 0);
+
+    [[nodiscard]] bool closing() const { return closing_; }
+    [[nodiscard]] std::string title() const;
+
+    [[nodiscard]] model::Model& model() { return model_; }
+    [[nodiscard]] ui::Workspace& workspace() { return workspace_; }
+    [[nodiscard]] const ui::Surroundings& surroundings() const { return around_; }
+    [[nodiscard]] int framesDrawn() const { return framesDrawn_; }
+    [[nodiscard]] int picturesDrawn() const { return picturesDrawn_; }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    /// A scene and what shows it. In an order that lets the renderer go first.
+    struct Shown {
+        std::unique_ptr<scene::Scene> scene;
+        std::vector<io::GltfMaterial> materials; ///< as in the file
+        std::unique_ptr<scene::Renderer> renderer;
+        scene::Bounds bounds;
+        DistantLight own; ///< where the document says nothing
+    };
+
+    Editor(gl::Device& device, ui::Clipboard clipboard);
+    core::Result<void> openLightingFile(const std::filesystem::path& path);
+    core::Result<Shown> openShown(const std::string& path, const std::string& root) const;
+    core::Result<void> openScene(const std::string& path, const std::string& root);
+    void show(Shown shown);
+    void describeScene();
+    void describeMaterials();
+
+    /// Brings the renderer up to date with the document. @return whether anything was due
+    bool syncDocument();
+    void syncEnvironment();
+    void syncLights();
+    void syncMaterials();
+
+    void answer(const ui::Wishes& wishes);
+    void moveCamera(const ui::CameraMove& move);
+    void pick(const glm::ivec2& pixel);
+    void save();
+    core::Result<void> drawPicture();
+    [[nodiscard]] core::Result<void> buildPanels(int width, int height, float scale);
+    [[nodiscard]] scene::View view() const;
+    [[nodiscard]] float aspect() const;
+    [[nodiscard]] double now() const;
+    void handleKey(const platform::KeyEvent& event);
+    void drop(const std::string& path);
+    /// Another picture is due.
+    void stale();
+
+    gl::Device* device_;
+    ui::Session session_;
+    ui::Workspace workspace_;
+    ui::Surroundings around_;
+    model::Model model_;
+    model::DocumentFile file_;
+    model::Revisions synced_;
+    bool everSynced_ = false;
+    std::string scenePath_, assetRoot_;
+    Shown shown_;
+    bool hasEnvironment_ = false;
+
+    scene::RenderSettings settings_;
+    scene::CameraRequest request_;
+    std::optional<scene::CameraPose> pose_;
+    gl::DisplayTarget picture_;
+    ui::CameraMove move_; ///< of the last frame: a held key goes on flying
+    ui::ViewState seen_;  ///< what the picture shows
+
+    bool pictureStale_ = true;
+    bool coarse_ = false; ///< the picture has one sample a pixel
+    double fineMs_ = 0.0;
+    Clock::time_point start_ = Clock::now(), lastChange_ = Clock::now();
+    double sinceFrame_ = 0.0;
+    int framesDrawn_ = 0, picturesDrawn_ = 0;
+    std::string status_;
+    bool closing_ = false;
+};
+
+} // namespace lodestar::app

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+//
+// The editor's scene: how it is opened, and how it follows the document.
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "app/command.h"
+#include "app/editor.h"
+#include "app/starter_scene.h"
+#include "lodestar/lobes.glsl"
+#include "model/presets.h"
+
+namespace lodestar::app {
+namespace {
+
+constexpr const char* kFirstPreset = "golden hour";
+constexpr double kFirstHour = 17.0;
+
+/// What a document that says nothing yet is begun with.
+document::Document firstDocument() {
+    document::Document document;
+    const std::vector<model::Preset>& presets = model::builtInPresets();
+    const auto named =
+        std::find_if(presets.begin(), presets.end(),
+                     [](const model::Preset& preset) { return preset.name == kFirstPreset; });
+    if (!presets.empty()) {
+        document.lights = named != presets.end() ? named->lights : presets.front().lights;
+    }
+    return document;
+}
+
+std::string holdsOf(const scene::Node& node) {
+    static constexpr std::array<const char*, 4> kNames = {"mesh", "camera", "light", "probe"};
+    std::string text;
+    for (const scene::Component& component : node.components) {
+        text += (text.empty() ? "" : ", ") + std::string(kNames[component.index()]);
+    }
+    return text;
+}
+
+/// A material as its three Blinn-Phong numbers, textures aside.
+ui::MaterialLine lineOf(const io::GltfMaterial& material, std::size_t index) {
+    ui::MaterialLine line;
+    line.key = material.name.empty() ? "#" + std::to_string(index) : material.name;
+    const glm::vec3 base(material.baseColor);
+    line.direct = material.blinnPhong.has_value();
+    if (material.blinnPhong) {
+        const io::GltfBlinnPhong& given = *material.blinnPhong;
+        line.exponent = static_cast<double>(given.exponent.value_or(0.0f));
+        line.diffuse = given.diffuse.value_or(base);
+        line.f0 = given.f0.value_or(glm::vec3(0.04f));
+    } else {
+        line.exponent =
+            static_cast<double>(shader::lodestar_exponentFromRoughness(material.roughness));
+        line.diffuse = shader::lodestar_diffuseFromMetallic(base, material.metallic);
+        line.f0 = shader::lodestar_f0FromMetallic(base, material.metallic);
+    }
+    if (material.specularEstimator) {
+        line.specular = lighting::estimatorName(*material.specularEstimator);
+    }
+    return line;
+}
+
+} // namespace
+
+core::Result<void> Editor::openLightingFile(const std::filesystem::path& path) {
+    if (path.empty()) {
+        model_ = model::Model(firstDocument());
+        workspace_.view().hour = kFirstHour;
+        everSynced_ = false;
+        return {};
+    }
+    core::Tally warnings;
+    model::Model opened;
+    auto file = model::DocumentFile::open(path, opened, warnings);
+    if (!file) {
+        return file.error();
+    }
+    warn(warnings, path.string());
+    if (!std::filesystem::exists(path)) {
+        opened = model::Model(firstDocument());
+        workspace_.view().hour = kFirstHour;
+    }
+    model_ = std::move(opened);
+    file_ = std::move(*file);
+    if (const auto left = file_.recovery()) {
+        if (auto recovered = file_.recover(model_, *left); !recovered) {
+            workspace_.say(recovered.error().message(), true);
+        } else {
+            workspace_.say("recovered what was not saved; undo goes back to the file");
+        }
+    }
+    everSynced_ = false;
+    session_.wake();
+    return {};
+}
+
+core::Result<Editor::Shown> Editor::openShown(const std::string& path,
+                                              const std::string& root) const {
+    SceneOptions options;
+    options.scene = path;
+    options.assetRoot = root;
+    OpenedFile opened;
+    if (path.empty()) {
+        opened = {starterScene(), 0};
+    } else {
+        auto file = openFile(options);
+        if (!file) {
+            return file.error();
+        }
+        opened = std::move(*file);
+    }
+    Shown shown;
+    auto own = distantLight(options, opened, std::nullopt);
+    if (!own) {
+        return own.error();
+    }
+    shown.own = std::move(*own);
+    const int index = opened.sceneIndex;
+    shown.scene = std::make_unique<scene::Scene>(scene::buildScene(std::move(opened.file), index));
+    warn(shown.scene->warnings, path);
+    core::Tally warnings;
+    const OpenedDocument document{file_.path().string(), model_.document(), {}, {}};
+    if (auto added = addDocumentProbes(document, *shown.scene, warnings); !added) {
+        return added.error();
+    }
+    shown.materials = shown.scene->materials;
+    auto renderer = scene::Renderer::make(*device_, *shown.scene);
+    if (!renderer) {
+        return core::inFile(renderer.error(), path);
+    }
+    shown.renderer = std::move(*renderer);
+    shown.scene->images.clear();
+    shown.bounds = shown.scene->worldBounds();
+    return shown;
+}
+
+core::Result<void> Editor::openScene(const std::string& path, const std::string& root) {
+    auto shown = openShown(path, root);
+    if (!shown) {
+        return shown.error();
+    }
+    if (path != scenePath_) {
+        pose_.reset();
+    }
+    scenePath_ = path;
+    assetRoot_ = root;
+    shown_ = std::move(*shown);
+    hasEnvironment_ = false;
+    everSynced_ = false;
+    describeScene();
+    stale();
+    session_.wake();
+    return {};
+}
+
+void Editor::describeScene() {
+    around_.sceneName = scenePath_.empty()
+                            ? "built-in spheres"
+                            : std::filesystem::path(scenePath_).filename().string();
+    around_.nodes.clear();
+    std::vector<int> depths;
+    const std::vector<scene::Node>& nodes = shown_.scene->nodes;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        depths.push_back(
+            nodes[i].parent < 0 ? 0 : depths[static_cast<std::size_t>(nodes[i].parent)] + 1);
+        around_.nodes.push_back(
+            {nodes[i].name.empty() ? std::string("node ").append(std::to_string(i)) : nodes[i].name,
+             depths.back(), holdsOf(nodes[i])});
+    }
+}
+
+void Editor::describeMaterials() {
+    around_.materials.clear();
+    for (std::size_t i = 0; i < shown_.scene->materials.size(); ++i) {
+        around_.materials.push_back(lineOf(shown_.scene->materials[i], i));
+    }
+}
+
+bool Editor::syncDocument() {
+    const model::Revisions& revisions = model_.revisions();
+    if (everSynced_ && revisions.document == synced_.document) {
+        return false;
+    }
+    if (everSynced_ && revisions.probes != synced_.probes) {
+        synced_.probes = revisions.probes;
+        if (auto opened = openScene(scenePath_, assetRoot_); !opened) {
+            workspace_.say(opened.error().message(), true);
+        }
+    }
+    if (!everSynced_ || revisions.lights != synced_.lights ||
+        revisions.environment != synced_.environment) {
+        // Which of the two stands in the other's place, both say.
+        if (!everSynced_ || revisions.environment != synced_.environment ||
+            model_.document().lights.empty() || hasEnvironment_) {
+            syncEnvironment();
+        }
+        syncLights();
+    }
+    if (!everSynced_ || revisions.materials != synced_.materials) {
+        syncMaterials();
+    }
+    synced_ = revisions;
+    everSynced_ = true;
+    session_.wake();
+    return true;
+}
+
+void Editor::syncEnvironment() {
+    const OpenedDocument opened{file_.path().string(), model_.document(), {}, {}};
+    const bool named = opened.document.environment.has_value();
+    if (!named && !opened.document.lights.empty()) {
+        if (hasEnvironment_) {
+            shown_.renderer->setEnvironment({}, {});
+            hasEnvironment_ = false;
+        }
+        return;
+    }
+    const DistantLight* light = &shown_.own;
+    core::Result<DistantLight> loaded = DistantLight{};
+    if (named) {
+        loaded = distantLight({}, {}, opened);
+        if (!loaded) {
+            workspace_.say(loaded.error().message(), true);
+            return;
+        }
+        light = &*loaded;
+    }
+    shown_.renderer->setEnvironment(light->name, light->environment.base);
+    hasEnvironment_ = true;
+}
+
+void Editor::syncLights() {
+    core::Tally warnings;
+    auto lights = document::dayLights(model_.document(), warnings);
+    if (!lights) {
+        workspace_.say(lights.error().message(), true);
+        return;
+    }
+    shown_.renderer->setLights(std::move(*lights));
+}
+
+void Editor::syncMaterials() {
+    core::Tally warnings;
+    shown_.scene->materials = shown_.materials;
+    applyMaterials(model_.document(), *shown_.scene, warnings);
+    shown_.renderer->materialsChanged();
+    describeMaterials();
+}
+
+} // namespace lodestar::app
