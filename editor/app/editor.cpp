@@ -7,6 +7,7 @@
 
 #include <epoxy/gl.h>
 
+#include "io/document_file.h"
 #include "lighting/day.h"
 
 namespace lodestar::app {

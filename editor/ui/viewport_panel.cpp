@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "ui/input.h"
 #include "ui/panels.h"
 #include "ui/theme.h"
 
