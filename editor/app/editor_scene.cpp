@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <span>
+
+#include <glm/trigonometric.hpp>
 
 #include "app/command.h"
 #include "app/editor.h"
@@ -14,19 +17,50 @@
 namespace lodestar::app {
 namespace {
 
-constexpr const char* kFirstPreset = "golden hour";
-constexpr double kFirstHour = 17.0;
+constexpr double kFirstHour = 17.5;
 
-/// What a document that says nothing yet is begun with.
-document::Document firstDocument() {
-    document::Document document;
-    const std::vector<model::Preset>& presets = model::builtInPresets();
-    const auto named =
-        std::find_if(presets.begin(), presets.end(),
-                     [](const model::Preset& preset) { return preset.name == kFirstPreset; });
-    if (!presets.empty()) {
-        document.lights = named != presets.end() ? named->lights : presets.front().lights;
+/// A preset's light of a kind, or nothing.
+const document::Light* lightOf(const char* preset, lighting::LightKind kind) {
+    for (const model::Preset& known : model::builtInPresets()) {
+        for (const document::Light& light : known.lights) {
+            if (known.name == preset && light.kind == kind && !light.keys.empty()) {
+                return &light;
+            }
+        }
     }
+    return nullptr;
+}
+
+/// A light whose keys are presets.
+document::Light dayOf(const char* name, lighting::LightKind kind,
+                      std::span<const std::pair<double, const char*>> hours) {
+    document::Light day;
+    day.name = name;
+    day.kind = kind;
+    for (const auto& [hour, preset] : hours) {
+        if (const document::Light* light = lightOf(preset, kind)) {
+            day.keys.push_back(light->keys.front());
+            day.keys.back().hour = hour;
+            day.keys.back().axis.reset();
+        }
+    }
+    return day;
+}
+
+/// What a document that says nothing yet is begun with: a day of the presets.
+document::Document firstDocument() {
+    constexpr std::pair<double, const char*> kSky[] = {
+        {0.0, "Night"},        {4.5, "Night"}, {5.5, "Dusk"},  {7.0, "Golden hour"},
+        {10.0, "Clear noon"},  {14.5, "Clear noon"}, {17.5, "Golden hour"},
+        {19.25, "Dusk"},       {20.5, "Night"}};
+    constexpr std::pair<double, const char*> kSun[] = {
+        {6.5, "Golden hour"}, {10.0, "Clear noon"}, {14.5, "Clear noon"}, {17.5, "Golden hour"}};
+    document::Document document;
+    document.lights = {dayOf("sky", lighting::LightKind::Sky, kSky),
+                       dayOf("sun", lighting::LightKind::Sun, kSun)};
+    // 48 degrees north at the end of April, the camera looking north-west.
+    document.lights.back().path =
+        lighting::SunPath{glm::radians(48.0), 118, {0.8, 0.0, -0.6}};
     return document;
 }
 

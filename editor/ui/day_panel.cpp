@@ -187,6 +187,7 @@ void DayPanel::pointer(Studio& studio, const Frame& frame) {
     const double hour = frame.hour(io.MousePos.x);
     if (ImGui::IsItemActivated()) {
         grabbed_ = model::Id::None;
+        draggedTo_ = -1.0;
         scrubs_ = true;
         const document::Light& light = studio.model.document().lights[frame.light];
         const std::vector<model::KeyIds>& names = studio.model.ids().lights[frame.light].keys;
@@ -212,6 +213,10 @@ void DayPanel::pointer(Studio& studio, const Frame& frame) {
     } else if (ImGui::IsItemActive() && grabbed_ != model::Id::None &&
                ImGui::IsMouseDragging(ImGuiMouseButton_Left, 3.0f)) {
         const double rounded = std::min(std::round(hour * 4.0) / 4.0, 23.75);
+        if (rounded == draggedTo_) {
+            return; // it is there already
+        }
+        draggedTo_ = rounded;
         if (io.KeyCtrl) {
             studio.run(model::CopyKey{grabbed_, rounded});
         } else {

@@ -162,7 +162,7 @@ void GradientPanel::draw(Studio& studio, model::Id key) {
         drawStopFields(studio, studio.model.document().lights[place->light].kind);
     }
     const document::Key* painted = studio.model.key(key);
-    label("between stops");
+    label("blend");
     ImGui::SetNextItemWidth(0.5f * ImGui::GetContentRegionAvail().x -
                             0.5f * ImGui::GetStyle().ItemSpacing.x);
     if (const auto chosen =

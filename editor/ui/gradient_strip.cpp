@@ -185,8 +185,8 @@ void GradientStrip::drag(Studio& studio, const Frame& frame, double at) {
     moved_ = moved_ || ImGui::IsMouseDragging(ImGuiMouseButton_Left, 2.0f);
     away_ = moved_ && away > kAwayPixels * frame.scale &&
             frame.stops.size() >= grabbed_.size() + 2;
-    if (!moved_ || grabbed_.empty()) {
-        return;
+    if (!moved_ || grabbed_.empty() || (io.MouseDelta.x == 0.0f && io.MouseDelta.y == 0.0f)) {
+        return; // a pointer at rest changes nothing
     }
     if (studio.view.snapping != io.KeyAlt) {
         std::vector<double> others;

@@ -27,6 +27,7 @@ private:
     void drawKeys(Studio& studio, const Frame& frame);
     void pointer(Studio& studio, const Frame& frame);
     model::Id grabbed_ = model::Id::None;
+    double draggedTo_ = -1.0; ///< hour; -1: nowhere yet
     bool scrubs_ = false;
 };
 

@@ -11,10 +11,15 @@ void drawPlan(const Studio& studio) {
         return;
     }
     constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg |
-                                       ImGuiTableFlags_ScrollY | ImGuiTableFlags_ScrollX;
+                                       ImGuiTableFlags_ScrollY;
     if (!ImGui::BeginTable("plan", 4, kFlags)) {
         return;
     }
+    const float em = ImGui::GetFontSize();
+    ImGui::TableSetupColumn("decision", ImGuiTableColumnFlags_WidthFixed, 2.2f * em);
+    ImGui::TableSetupColumn("effect", ImGuiTableColumnFlags_WidthFixed, 7.5f * em);
+    ImGui::TableSetupColumn("subject", ImGuiTableColumnFlags_WidthFixed, 8.0f * em);
+    ImGui::TableSetupColumn("reason", ImGuiTableColumnFlags_WidthStretch);
     const std::vector<plan::Effect>& effects = studio.around.plan->effects;
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(effects.size()));
@@ -32,6 +37,9 @@ void drawPlan(const Studio& studio) {
             ImGui::TextColored(color, "%s", effect.subject.c_str());
             ImGui::TableNextColumn();
             ImGui::TextColored(color, "%s", effect.reason.c_str());
+            if (ImGui::IsItemHovered()) {
+                ImGui::SetTooltip("%s: %s", effect.subject.c_str(), effect.reason.c_str());
+            }
         }
     }
     ImGui::EndTable();

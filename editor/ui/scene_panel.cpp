@@ -75,7 +75,7 @@ void drawMaterials(Studio& studio) {
         }
         studio.mark("material " + std::to_string(i));
         ImGui::SameLine(ImGui::GetContentRegionMax().x - 4.0f * ImGui::GetFontSize());
-        ImGui::TextColored(kDimText, "%.4g", material.exponent);
+        ImGui::TextColored(kDimText, "%.5g", material.exponent);
         ImGui::PopID();
     }
 }

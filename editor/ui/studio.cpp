@@ -16,9 +16,6 @@ std::optional<model::Outcome> Studio::run(const model::Command& command) {
         holder_ = holder;
     }
     auto outcome = model.execute(command, token_);
-    if (holder == 0) {
-        token_ = 0; // no widget is held: the next command is another step
-    }
     if (!outcome) {
         say(outcome.error().message(), true);
         return std::nullopt;

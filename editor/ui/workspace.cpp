@@ -33,6 +33,9 @@ bool beginPanel(const char* name, float left, float top, float right, float bott
 Wishes Workspace::draw(model::Model& model, const Surroundings& surroundings) {
     Studio studio(model, surroundings, view_);
     studio.log = std::move(log_);
+    if (!ImGui::IsAnyItemActive()) {
+        token_ = 0; // whatever was held has been let go
+    }
     studio.token_ = token_;
     studio.holder_ = holder_;
     const auto keep = [&] {

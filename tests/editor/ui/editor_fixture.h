@@ -4,7 +4,9 @@
 // texture and read back.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "app/editor.h"
 #include "io/image_file.h"
@@ -56,7 +58,9 @@ protected:
             frame();
             ++frames;
         }
-        ASSERT_LT(frames, 60) << "an editor that nobody touches goes on drawing";
+        const auto& log = editor_->workspace().log();
+        ASSERT_LT(frames, 60) << "an editor that nobody touches goes on drawing: "
+                              << (log.empty() ? "" : log.back().text);
     }
     void send(const platform::Event& event) { editor_->handle(event); }
     void moveTo(const ImVec2& place) {
@@ -138,6 +142,15 @@ protected:
             }
         }
         return cut;
+    }
+    /// The viewport once it stands still: what changes may be drawn with fewer samples.
+    [[nodiscard]] core::Image viewport() {
+        const double patience = editor_->patience();
+        if (patience > 0.0 && patience < 1.0) {
+            std::this_thread::sleep_for(std::chrono::duration<double>(1.1 * patience));
+        }
+        settle();
+        return part(shown(), mark("viewport"));
     }
     /// The mean difference of two pictures of one size, [0, 1].
     [[nodiscard]] static double difference(const core::Image& a, const core::Image& b) {
