@@ -2,113 +2,23 @@
 //
 // The viewer in a real window on a virtual display, driven by synthetic input.
 #include <algorithm>
-#include <chrono>
-#include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <future>
 #include <thread>
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "support/picture.h"
 #include "support/run.h"
+#include "support/virtual_display.h"
 
 namespace lodestar::testing {
 namespace {
 
 constexpr double kSteps = 2.0 / 255.0; ///< one step of rounding on either side
 const std::string kEnvironment = "faces:1/0.1/0.1;0.1/1/0.1;0.2/0.4/1;1/1/0.2;0.2/1/1;1/0.3/1";
-
-/// Starts a program, silent but for one descriptor it may inherit.
-pid_t start(std::vector<std::string> words) {
-    const pid_t child = fork();
-    if (child == 0) {
-        const int null = open("/dev/null", O_RDWR);
-        dup2(null, 1);
-        dup2(null, 2);
-        std::vector<char*> argv;
-        for (std::string& word : words) {
-            argv.push_back(word.data());
-        }
-        argv.push_back(nullptr);
-        execvp(argv[0], argv.data());
-        _exit(127);
-    }
-    return child;
-}
-
-void end(pid_t child) {
-    if (child > 0) {
-        kill(child, SIGTERM);
-        waitpid(child, nullptr, 0);
-    }
-}
-
-/// A virtual X server with a window manager, for the life of the object.
-class VirtualDisplay {
-public:
-    VirtualDisplay() {
-        int ends[2] = {-1, -1};
-        if (pipe(ends) != 0) {
-            return;
-        }
-        server_ = start({"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0",
-                         "1024x768x24", "-nolisten", "tcp"});
-        close(ends[1]);
-        char number[16] = {};
-        if (read(ends[0], number, sizeof number - 1) > 0) {
-            name_ = std::string(1, ':').append(std::to_string(std::atoi(number)));
-            setenv("DISPLAY", name_.c_str(), 1);
-            manager_ = start({"openbox"});
-        }
-        close(ends[0]);
-    }
-    VirtualDisplay(const VirtualDisplay&) = delete;
-    VirtualDisplay& operator=(const VirtualDisplay&) = delete;
-    ~VirtualDisplay() {
-        end(manager_);
-        end(server_);
-        unsetenv("DISPLAY");
-    }
-    [[nodiscard]] const std::string& name() const { return name_; }
-
-private:
-    pid_t server_ = -1;
-    pid_t manager_ = -1;
-    std::string name_;
-};
-
-/// What a shell command prints.
-std::string output(const std::string& command) {
-    std::string text;
-    if (FILE* pipe = popen((command + " 2>/dev/null").c_str(), "r")) {
-        char part[256];
-        while (std::fgets(part, sizeof part, pipe) != nullptr) {
-            text += part;
-        }
-        pclose(pipe);
-    }
-    return text;
-}
-
-bool soon(const std::function<bool()>& holds, double seconds = 120.0) {
-    const auto start = std::chrono::steady_clock::now();
-    while (!holds()) {
-        if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() >
-            seconds) {
-            return false;
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    return true;
-}
 
 /// A tetrahedron, its four triangles facing outwards.
 std::string tetrahedron(const TemporaryFolder& folder) {
@@ -132,20 +42,11 @@ std::string tetrahedron(const TemporaryFolder& folder) {
 class ViewerRun : public ::testing::Test {
 protected:
     void SetUp() override {
-        const bool required = std::getenv("LODESTAR_REQUIRE_GL") != nullptr &&
-                              std::string(std::getenv("LODESTAR_REQUIRE_GL")) == "1";
-        if (!required &&
-            (output("command -v Xvfb").empty() || output("command -v xdotool").empty() ||
-             output("command -v openbox").empty() || output("command -v import").empty())) {
-            GTEST_SKIP() << "needs Xvfb, openbox, xdotool and ImageMagick";
+        if (const std::string missing = missingPrograms(); !missing.empty()) {
+            GTEST_SKIP() << missing;
         }
         display_ = std::make_unique<VirtualDisplay>();
-        ASSERT_FALSE(display_->name().empty()) << "Xvfb did not start";
-        // A window that is mapped while the manager takes over may be shown by neither.
-        ASSERT_TRUE(soon([] {
-            return output("xdotool get_num_desktops && echo ready").find("ready") !=
-                   std::string::npos;
-        })) << "openbox did not start";
+        ASSERT_TRUE(display_->isReady()) << "Xvfb or openbox did not start";
         scene_ = tetrahedron(folder_);
         before_ = std::filesystem::current_path();
         std::filesystem::current_path(folder_.file("."));
