@@ -81,6 +81,12 @@ struct Renderer::State {
                                  const std::function<void(const blocks::LodestarFrame&)>& drawTile,
                                  const TileSink& sink, double& milliseconds);
     void chooseEstimators(bool wait, plan::PlanInput& input);
+    /// Where there are light probes, the factor that their half floats are written with.
+    void setWritten() {
+        if (!observer.empty()) {
+            probes.setWritten(writtenFactor(scene, environment, lights));
+        }
+    }
     [[nodiscard]] std::shared_ptr<const plan::EffectPlan> planFrame(const View& view,
                                                                     const RenderSettings& settings);
     core::Result<void> drawShadows(const plan::EffectPlan& plan, const RenderSettings& settings,
@@ -222,7 +228,7 @@ core::Result<std::unique_ptr<Renderer>> Renderer::make(gl::Device& device, const
 void Renderer::setEnvironment(std::string source, lighting::Cubemap base) {
     state_->environment = GpuEnvironment(std::move(source), std::move(base));
     state_->planner.forgetDraws(); // estimators are chosen for this map
-    state_->probes.setWritten(writtenFactor(state_->scene, state_->environment, state_->lights));
+    state_->setWritten();
 }
 
 void Renderer::setLights(std::vector<lighting::DayLight> lights,
@@ -233,7 +239,7 @@ void Renderer::setLights(std::vector<lighting::DayLight> lights,
     }
     set.keep(std::move(state_->lights));
     state_->lights = std::move(set);
-    state_->probes.setWritten(writtenFactor(state_->scene, state_->environment, state_->lights));
+    state_->setWritten();
 }
 
 void Renderer::materialsChanged() {
@@ -242,7 +248,7 @@ void Renderer::materialsChanged() {
     for (std::size_t i = 0; i < state_->observer.count(); ++i) {
         state_->observer.request(i); // what they hold shows the materials as they were
     }
-    state_->probes.setWritten(writtenFactor(state_->scene, state_->environment, state_->lights));
+    state_->setWritten();
 }
 
 const core::Tally& Renderer::lightWarnings() const {

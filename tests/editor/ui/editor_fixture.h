@@ -145,11 +145,11 @@ protected:
     }
     /// The viewport once it stands still: what changes may be drawn with fewer samples.
     [[nodiscard]] core::Image viewport() {
-        const double patience = editor_->patience();
-        if (patience > 0.0 && patience < 1.0) {
-            std::this_thread::sleep_for(std::chrono::duration<double>(1.1 * patience));
+        for (double patience = editor_->patience(); patience < 1.0;
+             patience = editor_->patience()) {
+            std::this_thread::sleep_for(std::chrono::duration<double>(patience));
+            settle();
         }
-        settle();
         return part(shown(), mark("viewport"));
     }
     /// The mean difference of two pictures of one size, [0, 1].
