@@ -209,12 +209,16 @@ RsrmTexels encode(const RsrmLayout& layout, const RsrmBake& bake) {
 }
 
 std::vector<glm::vec3> unfiltered(const RadianceProfile& profile) {
-    const std::vector<double> angles = columnAngles(RsrmColumns::Refined, kGradientColumns);
-    std::vector<double> edges{0.0};
-    for (std::size_t i = 0; i + 1 < angles.size(); ++i) {
-        edges.push_back(0.5 * (angles[i] + angles[i + 1]));
-    }
-    edges.push_back(std::numbers::pi);
+    // Found by bisection, always the same: most of the time of an edit if made for each.
+    static const std::vector<double> edges = [] {
+        const std::vector<double> angles = columnAngles(RsrmColumns::Refined, kGradientColumns);
+        std::vector<double> made{0.0};
+        for (std::size_t i = 0; i + 1 < angles.size(); ++i) {
+            made.push_back(0.5 * (angles[i] + angles[i + 1]));
+        }
+        made.push_back(std::numbers::pi);
+        return made;
+    }();
     const std::vector<glm::dvec3> means = ringMeans(profile, edges);
     return {means.begin(), means.end()};
 }

@@ -104,6 +104,7 @@ protected:
     }
     core::Image shown() {
         const std::string path = folder_.file("shown.png");
+        std::filesystem::remove(path);
         output("import -window " + window_ + " -depth 8 png24:" + path);
         return std::filesystem::exists(path) ? readPicture(path) : core::Image();
     }
