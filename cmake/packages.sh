@@ -6,7 +6,7 @@
 LODESTAR_PACKAGES_build="cmake ninja-build g++ pkg-config ca-certificates
     libglm-dev libopenimageio-dev openimageio-tools libtinygltf-dev nlohmann-json3-dev libcli11-dev
     zlib1g-dev libpng-dev libjpeg62-turbo-dev libepoxy-dev libegl-dev libgl-dev libopengl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
-    libglfw3-dev libimgui-dev"
+    libglfw3-dev libimgui-dev fonts-dejavu-core"
 # OpenSceneGraph is a host that is tested; blender-data holds the panoramas that accuracy is measured on; the viewer's window is tested on a
 # virtual display by synthetic input (xvfb to imagemagick).
 LODESTAR_PACKAGES_test="libgtest-dev librapidcheck-dev clang-format-14 blender-data python3-jsonschema libopenscenegraph-dev

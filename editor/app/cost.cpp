@@ -18,12 +18,12 @@
 #include "app/cost_plots.h"
 #include "app/cost_shading.h"
 #include "app/cost_table.h"
-#include "ui/false_color.h"
 #include "io/environment_file.h"
 #include "io/file.h"
 #include "io/image_file.h"
 #include "lighting/accuracy.h"
 #include "platform/headless_context.h"
+#include "ui/false_color.h"
 
 namespace lodestar::app {
 namespace {

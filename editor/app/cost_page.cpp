@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <sstream>
 
-#include "ui/false_color.h"
 #include "io/file.h"
+#include "ui/false_color.h"
 
 namespace lodestar::app {
 namespace {

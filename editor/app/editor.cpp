@@ -60,8 +60,8 @@ void Editor::stale() {
 
 bool Editor::wantsFrame() const {
     return session_.wantsFrame() || pictureStale_ ||
-           (coarse_ && std::chrono::duration<double>(Clock::now() - lastChange_).count() >=
-                           kStillSeconds);
+           (coarse_ &&
+            std::chrono::duration<double>(Clock::now() - lastChange_).count() >= kStillSeconds);
 }
 
 double Editor::patience() const {
@@ -197,8 +197,8 @@ void Editor::pick(const glm::ivec2& pixel) {
 }
 
 void Editor::save() {
-    auto saved = file_.path().empty() ? file_.saveAs(model_, "untitled.lodestar.json")
-                                      : file_.save(model_);
+    auto saved =
+        file_.path().empty() ? file_.saveAs(model_, "untitled.lodestar.json") : file_.save(model_);
     if (!saved) {
         workspace_.say(saved.error().message(), true);
     } else {
@@ -212,8 +212,7 @@ core::Result<void> Editor::buildPanels(int width, int height, float scale) {
     // anew, and the panels show it.
     for (int pass = 0; pass < 2; ++pass) {
         around_.picture = picture_.color().id();
-        around_.documentName =
-            file_.path().empty() ? "untitled" : file_.path().filename().string();
+        around_.documentName = file_.path().empty() ? "untitled" : file_.path().filename().string();
         ui::Wishes wishes;
         session_.frame(width, height, scale, sinceFrame_,
                        [&] { wishes = workspace_.draw(model_, around_); });
@@ -313,8 +312,7 @@ core::Result<void> Editor::drawFrame(int width, int height, float scale, unsigne
 }
 
 std::string Editor::title() const {
-    const std::string name =
-        file_.path().empty() ? "untitled" : file_.path().filename().string();
+    const std::string name = file_.path().empty() ? "untitled" : file_.path().filename().string();
     return name + (model_.dirty() ? " *" : "") + " - Lodestar";
 }
 

@@ -33,16 +33,26 @@ ui::Key from(platform::Key key) {
         return offset(Theirs::F1, ui::Key::F1);
     }
     static constexpr std::pair<Theirs, ui::Key> kOthers[] = {
-        {Theirs::Space, ui::Key::Space},         {Theirs::Comma, ui::Key::Comma},
-        {Theirs::Period, ui::Key::Period},       {Theirs::Plus, ui::Key::Plus},
-        {Theirs::Minus, ui::Key::Minus},         {Theirs::Tab, ui::Key::Tab},
-        {Theirs::Escape, ui::Key::Escape},       {Theirs::Home, ui::Key::Home},
-        {Theirs::End, ui::Key::End},             {Theirs::PageUp, ui::Key::PageUp},
-        {Theirs::PageDown, ui::Key::PageDown},   {Theirs::Left, ui::Key::Left},
-        {Theirs::Right, ui::Key::Right},         {Theirs::Up, ui::Key::Up},
-        {Theirs::Down, ui::Key::Down},           {Theirs::Enter, ui::Key::Enter},
-        {Theirs::Backspace, ui::Key::Backspace}, {Theirs::Delete, ui::Key::Delete},
-        {Theirs::Insert, ui::Key::Insert},       {Theirs::Shift, ui::Key::Shift},
+        {Theirs::Space, ui::Key::Space},
+        {Theirs::Comma, ui::Key::Comma},
+        {Theirs::Period, ui::Key::Period},
+        {Theirs::Plus, ui::Key::Plus},
+        {Theirs::Minus, ui::Key::Minus},
+        {Theirs::Tab, ui::Key::Tab},
+        {Theirs::Escape, ui::Key::Escape},
+        {Theirs::Home, ui::Key::Home},
+        {Theirs::End, ui::Key::End},
+        {Theirs::PageUp, ui::Key::PageUp},
+        {Theirs::PageDown, ui::Key::PageDown},
+        {Theirs::Left, ui::Key::Left},
+        {Theirs::Right, ui::Key::Right},
+        {Theirs::Up, ui::Key::Up},
+        {Theirs::Down, ui::Key::Down},
+        {Theirs::Enter, ui::Key::Enter},
+        {Theirs::Backspace, ui::Key::Backspace},
+        {Theirs::Delete, ui::Key::Delete},
+        {Theirs::Insert, ui::Key::Insert},
+        {Theirs::Shift, ui::Key::Shift},
         {Theirs::Control, ui::Key::Control},
     };
     for (const auto& [theirs, ours] : kOthers) {
@@ -66,9 +76,7 @@ void Editor::handle(const platform::Event& event) {
     std::visit(
         Overloaded{
             [&](const platform::KeyEvent& key) { handleKey(key); },
-            [&](const platform::TextEvent& text) {
-                session_.push(ui::TextInput{text.character});
-            },
+            [&](const platform::TextEvent& text) { session_.push(ui::TextInput{text.character}); },
             [&](const platform::ButtonEvent& button) {
                 const int index = button.button == platform::PointerButton::Left    ? 0
                                   : button.button == platform::PointerButton::Right ? 1

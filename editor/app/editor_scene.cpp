@@ -50,17 +50,16 @@ document::Light dayOf(const char* name, lighting::LightKind kind,
 /// What a document that says nothing yet is begun with: a day of the presets.
 document::Document firstDocument() {
     constexpr std::pair<double, const char*> kSky[] = {
-        {0.0, "Night"},        {4.5, "Night"}, {5.5, "Dusk"},  {7.0, "Golden hour"},
-        {10.0, "Clear noon"},  {14.5, "Clear noon"}, {17.5, "Golden hour"},
-        {19.25, "Dusk"},       {20.5, "Night"}};
+        {0.0, "Night"},        {4.5, "Night"},       {5.5, "Dusk"},
+        {7.0, "Golden hour"},  {10.0, "Clear noon"}, {14.5, "Clear noon"},
+        {17.5, "Golden hour"}, {19.25, "Dusk"},      {20.5, "Night"}};
     constexpr std::pair<double, const char*> kSun[] = {
         {6.5, "Golden hour"}, {10.0, "Clear noon"}, {14.5, "Clear noon"}, {17.5, "Golden hour"}};
     document::Document document;
     document.lights = {dayOf("sky", lighting::LightKind::Sky, kSky),
                        dayOf("sun", lighting::LightKind::Sun, kSun)};
     // 48 degrees north at the end of April, the camera looking north-west.
-    document.lights.back().path =
-        lighting::SunPath{glm::radians(48.0), 118, {0.8, 0.0, -0.6}};
+    document.lights.back().path = lighting::SunPath{glm::radians(48.0), 118, {0.8, 0.0, -0.6}};
     return document;
 }
 
@@ -190,9 +189,8 @@ core::Result<void> Editor::openScene(const std::string& path, const std::string&
 }
 
 void Editor::describeScene() {
-    around_.sceneName = scenePath_.empty()
-                            ? "built-in spheres"
-                            : std::filesystem::path(scenePath_).filename().string();
+    around_.sceneName = scenePath_.empty() ? "built-in spheres"
+                                           : std::filesystem::path(scenePath_).filename().string();
     around_.nodes.clear();
     std::vector<int> depths;
     const std::vector<scene::Node>& nodes = shown_.scene->nodes;

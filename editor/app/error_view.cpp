@@ -10,9 +10,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "ui/false_color.h"
 #include "core/contract.h"
 #include "core/font.h"
+#include "ui/false_color.h"
 
 namespace lodestar::app {
 namespace {

@@ -109,8 +109,8 @@ io::GltfFile starterScene() {
     eye.name = "camera";
     eye.camera = 0;
     eye.hasMatrix = true;
-    eye.matrix = glm::inverse(glm::lookAt(
-        glm::vec3(1.9f, 2.5f, 9.2f), glm::vec3(0.0f, 0.75f, 0.0f), glm::vec3(0.0f, 1.0f, 0.0f)));
+    eye.matrix = glm::inverse(glm::lookAt(glm::vec3(1.9f, 2.5f, 9.2f), glm::vec3(0.0f, 0.75f, 0.0f),
+                                          glm::vec3(0.0f, 1.0f, 0.0f)));
     file.scenes.front().roots.push_back(static_cast<int>(file.nodes.size()));
     file.nodes.push_back(std::move(eye));
     io::GltfCamera camera;

@@ -38,9 +38,9 @@ constexpr Binding kBindings[] = {
 };
 
 constexpr std::array<const char*, 26> kOthers = {
-    "Space", "Comma", "Period", "+",    "-",       "Tab",      "Esc",  "Enter", "Backspace",
-    "Del",   "Ins",   "Home",   "End",  "PgUp",    "PgDn",     "Left", "Right", "Up",
-    "Down",  "Shift", "Ctrl",   "Alt"};
+    "Space",     "Comma", "Period", "+",     "-",    "Tab",  "Esc",  "Enter",
+    "Backspace", "Del",   "Ins",    "Home",  "End",  "PgUp", "PgDn", "Left",
+    "Right",     "Up",    "Down",   "Shift", "Ctrl", "Alt"};
 
 std::string nameOf(Key key) {
     if (key <= Key::Z) {

@@ -66,10 +66,10 @@ std::vector<KeyColumn> columnsOf(const document::Light& light) {
     }
     std::stable_sort(columns.begin(), columns.end(),
                      [](const KeyColumn& a, const KeyColumn& b) { return a.hour < b.hour; });
-    const auto last = std::unique(columns.rbegin(), columns.rend(),
-                                  [](const KeyColumn& a, const KeyColumn& b) {
-                                      return a.hour == b.hour; // the last listed holds
-                                  });
+    const auto last =
+        std::unique(columns.rbegin(), columns.rend(), [](const KeyColumn& a, const KeyColumn& b) {
+            return a.hour == b.hour; // the last listed holds
+        });
     columns.erase(columns.begin(), last.base());
     return columns;
 }
@@ -118,8 +118,7 @@ void drawControls(Studio& studio, model::Id light, model::Id key, std::size_t ke
     }
     ImGui::SameLine();
     ImGui::SetNextItemWidth(5.5f * ImGui::GetFontSize());
-    if (const auto hour =
-            numberField("##hour", studio.view.hour, 0.02f, 0.0, 23.999, "%.4g h")) {
+    if (const auto hour = numberField("##hour", studio.view.hour, 0.02f, 0.0, 23.999, "%.4g h")) {
         studio.view.hour = *hour;
     }
     studio.mark("hour");
@@ -127,9 +126,9 @@ void drawControls(Studio& studio, model::Id light, model::Id key, std::size_t ke
     ImGui::Text("%s", clockText(studio.view.hour).c_str());
     ImGui::SameLine();
     ImGui::SetNextItemWidth(6.5f * ImGui::GetFontSize());
-    studio.view.hoursASecond = numberField("##speed", studio.view.hoursASecond, 0.01f, 0.01, 24.0,
-                                           "%.3g h a second")
-                                   .value_or(studio.view.hoursASecond);
+    studio.view.hoursASecond =
+        numberField("##speed", studio.view.hoursASecond, 0.01f, 0.01, 24.0, "%.3g h a second")
+            .value_or(studio.view.hoursASecond);
     ImGui::SameLine();
     if (button(studio, "Add key", "at the hour; Ctrl + drag copies one")) {
         studio.runOnce(model::AddKey{light, studio.view.hour});
@@ -154,9 +153,9 @@ void drawTicks(ImDrawList* list, const ImVec2& low, float width, float scale) {
         std::snprintf(text, sizeof text, "%d", hour);
         const float size = ImGui::CalcTextSize(text).x;
         list->AddLine({x, low.y}, {x, low.y + 4.0f * scale}, color);
-        list->AddText({std::clamp(x - 0.5f * size, low.x, low.x + width - size),
-                       low.y + 2.0f * scale},
-                      color, text);
+        list->AddText(
+            {std::clamp(x - 0.5f * size, low.x, low.x + width - size), low.y + 2.0f * scale}, color,
+            text);
     }
 }
 

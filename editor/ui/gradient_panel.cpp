@@ -68,14 +68,14 @@ void drawBrushFields(Studio& studio) {
         brush.mode = static_cast<model::BrushMode>(*mode);
     }
     label("size");
-    brush.size = numberField("##size", brush.size, 0.1f, 0.01, 180.0, "%.4g\xc2\xb0")
-                     .value_or(brush.size);
+    brush.size =
+        numberField("##size", brush.size, 0.1f, 0.01, 180.0, "%.4g\xc2\xb0").value_or(brush.size);
     label("softness");
     brush.softness =
         numberField("##soft", brush.softness, 0.005f, 0.0, 1.0, "%.2f").value_or(brush.softness);
     label("strength");
-    brush.strength =
-        numberField("##strength", brush.strength, 0.005f, 0.0, 1.0, "%.2f").value_or(brush.strength);
+    brush.strength = numberField("##strength", brush.strength, 0.005f, 0.0, 1.0, "%.2f")
+                         .value_or(brush.strength);
     if (brush.mode == model::BrushMode::Paint) {
         label("radiance");
         brush.color = colorField("brush color", brush.color, 1e9, std::exp2(studio.view.exposure))
@@ -165,10 +165,9 @@ void GradientPanel::draw(Studio& studio, model::Id key) {
     label("blend");
     ImGui::SetNextItemWidth(0.5f * ImGui::GetContentRegionAvail().x -
                             0.5f * ImGui::GetStyle().ItemSpacing.x);
-    if (const auto chosen =
-            choiceField(studio, "##interpolation",
-                        static_cast<std::size_t>(painted->gradient.interpolation),
-                        kInterpolations)) {
+    if (const auto chosen = choiceField(studio, "##interpolation",
+                                        static_cast<std::size_t>(painted->gradient.interpolation),
+                                        kInterpolations)) {
         studio.runOnce(model::SetInterpolation{key, static_cast<GradientInterpolation>(*chosen)});
     }
     ImGui::SameLine();

@@ -79,8 +79,8 @@ void GradientStrip::drawRamp(Studio& studio, const Frame& frame) const {
     const double exposure = exposureFactor(studio.view);
     for (int i = 0; i < columns; ++i) {
         const auto edge = [&](int column) {
-            return frame.low.x + frame.width * static_cast<float>(column) /
-                                     static_cast<float>(columns);
+            return frame.low.x +
+                   frame.width * static_cast<float>(column) / static_cast<float>(columns);
         };
         const glm::dvec3& radiance = ramp[static_cast<std::size_t>(i)] * frame.key->tint;
         frame.list->AddRectFilled({edge(i), frame.low.y}, {edge(i + 1), frame.bottom()},
@@ -183,8 +183,7 @@ void GradientStrip::drag(Studio& studio, const Frame& frame, double at) {
     const float away = std::max(frame.low.y - io.MousePos.y,
                                 io.MousePos.y - frame.bottom() - kHandleHeight * frame.scale);
     moved_ = moved_ || ImGui::IsMouseDragging(ImGuiMouseButton_Left, 2.0f);
-    away_ = moved_ && away > kAwayPixels * frame.scale &&
-            frame.stops.size() >= grabbed_.size() + 2;
+    away_ = moved_ && away > kAwayPixels * frame.scale && frame.stops.size() >= grabbed_.size() + 2;
     if (!moved_ || grabbed_.empty() || (io.MouseDelta.x == 0.0f && io.MouseDelta.y == 0.0f)) {
         return; // a pointer at rest changes nothing
     }

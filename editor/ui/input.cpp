@@ -80,25 +80,35 @@ bool apply(const FocusLostInput&, ImGuiIO& io, Held& held) {
 
 void InputQueue::feed(ImGuiIO& io) {
     Held held;
-    while (!waiting_.empty() &&
-           std::visit([&](const auto& input) { return apply(input, io, held); },
-                      waiting_.front())) {
+    while (
+        !waiting_.empty() &&
+        std::visit([&](const auto& input) { return apply(input, io, held); }, waiting_.front())) {
         waiting_.pop_front();
     }
 }
 
 void mapKeys(ImGuiIO& io) {
     constexpr std::pair<ImGuiKey_, Key> kKeys[] = {
-        {ImGuiKey_Tab, Key::Tab},           {ImGuiKey_LeftArrow, Key::Left},
-        {ImGuiKey_RightArrow, Key::Right},  {ImGuiKey_UpArrow, Key::Up},
-        {ImGuiKey_DownArrow, Key::Down},    {ImGuiKey_PageUp, Key::PageUp},
-        {ImGuiKey_PageDown, Key::PageDown}, {ImGuiKey_Home, Key::Home},
-        {ImGuiKey_End, Key::End},           {ImGuiKey_Insert, Key::Insert},
-        {ImGuiKey_Delete, Key::Delete},     {ImGuiKey_Backspace, Key::Backspace},
-        {ImGuiKey_Space, Key::Space},       {ImGuiKey_Enter, Key::Enter},
-        {ImGuiKey_Escape, Key::Escape},     {ImGuiKey_A, Key::A},
-        {ImGuiKey_C, Key::C},               {ImGuiKey_V, Key::V},
-        {ImGuiKey_X, Key::X},               {ImGuiKey_Y, Key::Y},
+        {ImGuiKey_Tab, Key::Tab},
+        {ImGuiKey_LeftArrow, Key::Left},
+        {ImGuiKey_RightArrow, Key::Right},
+        {ImGuiKey_UpArrow, Key::Up},
+        {ImGuiKey_DownArrow, Key::Down},
+        {ImGuiKey_PageUp, Key::PageUp},
+        {ImGuiKey_PageDown, Key::PageDown},
+        {ImGuiKey_Home, Key::Home},
+        {ImGuiKey_End, Key::End},
+        {ImGuiKey_Insert, Key::Insert},
+        {ImGuiKey_Delete, Key::Delete},
+        {ImGuiKey_Backspace, Key::Backspace},
+        {ImGuiKey_Space, Key::Space},
+        {ImGuiKey_Enter, Key::Enter},
+        {ImGuiKey_Escape, Key::Escape},
+        {ImGuiKey_A, Key::A},
+        {ImGuiKey_C, Key::C},
+        {ImGuiKey_V, Key::V},
+        {ImGuiKey_X, Key::X},
+        {ImGuiKey_Y, Key::Y},
         {ImGuiKey_Z, Key::Z},
     };
     for (const auto& [theirs, ours] : kKeys) {

@@ -30,8 +30,8 @@ void drawPath(Studio& studio, model::Id id, lighting::SunPath path) {
     const glm::dvec2 north = degreesOfAxis(path.north);
     bool changed = false;
     label("latitude");
-    if (const auto value = numberField("##latitude", glm::degrees(path.latitude), 0.1f, -90.0,
-                                       90.0, "%.5g\xc2\xb0")) {
+    if (const auto value = numberField("##latitude", glm::degrees(path.latitude), 0.1f, -90.0, 90.0,
+                                       "%.5g\xc2\xb0")) {
         path.latitude = glm::radians(*value);
         changed = true;
     }
@@ -65,8 +65,7 @@ void drawAxis(Studio& studio, const document::Light& light, model::Id id, model:
     const auto azimuth = numberField("##azimuth", degrees.x, 0.2f, 0.0, 360.0, "%.5g\xc2\xb0");
     studio.mark("azimuth");
     label("elevation");
-    const auto elevation =
-        numberField("##elevation", degrees.y, 0.1f, -89.9, 89.9, "%.5g\xc2\xb0");
+    const auto elevation = numberField("##elevation", degrees.y, 0.1f, -89.9, 89.9, "%.5g\xc2\xb0");
     studio.mark("axis elevation");
     if (!azimuth && !elevation) {
         return;
@@ -91,9 +90,9 @@ void drawSun(Studio& studio, const document::Light& light, model::Id id, model::
     if (ImGui::Checkbox("by place and date", &follows)) {
         model::SetLight set;
         set.light = id;
-        set.path.emplace(follows ? std::optional(lighting::SunPath{glm::radians(45.0), 172,
-                                                                   {0.0, 0.0, -1.0}})
-                                 : std::nullopt);
+        set.path.emplace(
+            follows ? std::optional(lighting::SunPath{glm::radians(45.0), 172, {0.0, 0.0, -1.0}})
+                    : std::nullopt);
         studio.runOnce(set);
         return; // the light is another now
     }

@@ -51,10 +51,9 @@ void drawExponent(Studio& studio, const MaterialLine& material,
     }
     studio.mark("exponent slider");
     label("");
-    if (const auto typed =
-            numberField("##exponent", material.exponent,
-                        static_cast<float>(0.01 * (1.0 + material.exponent)), 0.0, kMostExponent,
-                        "%.6g")) {
+    if (const auto typed = numberField("##exponent", material.exponent,
+                                       static_cast<float>(0.01 * (1.0 + material.exponent)), 0.0,
+                                       kMostExponent, "%.6g")) {
         wanted = *typed;
     }
     studio.mark("exponent");
@@ -96,8 +95,8 @@ void drawEstimator(Studio& studio, const MaterialLine& material,
     studio.mark("estimator");
     if (open) {
         if (ImGui::Selectable("the frame's", material.specular.empty())) {
-            studio.runOnce(model::ResetMaterials{
-                names, model::MaterialField::Specular | model::MaterialField::Tolerance});
+            studio.runOnce(model::ResetMaterials{names, model::MaterialField::Specular |
+                                                            model::MaterialField::Tolerance});
         }
         for (const std::string& name : studio.around.estimators) {
             if (ImGui::Selectable(name.c_str(), name == material.specular)) {

@@ -10,8 +10,8 @@ void drawPlan(const Studio& studio) {
     if (!studio.around.plan) {
         return;
     }
-    constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg |
-                                       ImGuiTableFlags_ScrollY;
+    constexpr ImGuiTableFlags kFlags =
+        ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
     if (!ImGui::BeginTable("plan", 4, kFlags)) {
         return;
     }

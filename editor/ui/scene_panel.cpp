@@ -36,8 +36,7 @@ void drawLights(Studio& studio) {
         }
         studio.mark("light " + std::to_string(i));
         ImGui::SameLine(ImGui::GetContentRegionMax().x - 2.2f * ImGui::GetFontSize());
-        ImGui::TextColored(kDimText, "%s",
-                           light.kind == lighting::LightKind::Sky ? "sky" : "sun");
+        ImGui::TextColored(kDimText, "%s", light.kind == lighting::LightKind::Sky ? "sky" : "sun");
         ImGui::PopID();
     }
     if (button(studio, "Add sky", "")) {

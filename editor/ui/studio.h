@@ -32,10 +32,10 @@ struct NodeLine {
 
 /// A material of the scene as it is drawn now.
 struct MaterialLine {
-    std::string key;  ///< what a document calls it: its glTF name, else "#index"
-    double exponent = 0.0; ///< Blinn-Phong [0, 1e7]
+    std::string key;                  ///< what a document calls it: its glTF name, else "#index"
+    double exponent = 0.0;            ///< Blinn-Phong [0, 1e7]
     glm::dvec3 diffuse{0.0}, f0{0.0}; ///< reflectances
-    std::string specular; ///< estimator; empty: the frame's
+    std::string specular;             ///< estimator; empty: the frame's
     bool direct = false; ///< its Blinn-Phong numbers are given, not its roughness and metalness
 };
 

@@ -18,7 +18,8 @@ void addFont(float scale) {
     io.Fonts->Clear();
     ImFontConfig config;
     if (const std::span<const unsigned char> font = embeddedFont(); !font.empty()) {
-        // General punctuation, arrows and mathematics beside Latin: dashes, degrees, multiplication.
+        // General punctuation, arrows and mathematics beside Latin: dashes, degrees,
+        // multiplication.
         static constexpr ImWchar kRanges[] = {0x20, 0x24f, 0x370, 0x3ff, 0x2010, 0x2044, 0};
         config.FontDataOwnedByAtlas = false;
         config.OversampleH = 2;

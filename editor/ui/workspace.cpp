@@ -162,11 +162,11 @@ void Workspace::drawPrompts(Studio& studio) {
         ImGui::OpenPopup(title);
         promptOpens_ = false;
     }
-    ImGui::SetNextWindowPos({0.5f * ImGui::GetIO().DisplaySize.x, 0.3f * ImGui::GetIO().DisplaySize.y},
-                            ImGuiCond_Always, {0.5f, 0.0f});
-    if (!ImGui::BeginPopupModal(title, nullptr,
-                                ImGuiWindowFlags_AlwaysAutoResize |
-                                    ImGuiWindowFlags_NoSavedSettings)) {
+    ImGui::SetNextWindowPos(
+        {0.5f * ImGui::GetIO().DisplaySize.x, 0.3f * ImGui::GetIO().DisplaySize.y},
+        ImGuiCond_Always, {0.5f, 0.0f});
+    if (!ImGui::BeginPopupModal(
+            title, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
         prompt_ = Prompt::None;
         return;
     }
@@ -174,8 +174,8 @@ void Workspace::drawPrompts(Studio& studio) {
     if (ImGui::IsWindowAppearing()) {
         ImGui::SetKeyboardFocusHere();
     }
-    bool done = ImGui::InputTextWithHint("##path", "path", &path_,
-                                         ImGuiInputTextFlags_EnterReturnsTrue);
+    bool done =
+        ImGui::InputTextWithHint("##path", "path", &path_, ImGuiInputTextFlags_EnterReturnsTrue);
     studio.mark("path");
     done = ImGui::Button("OK") || done;
     studio.mark("OK");
@@ -201,8 +201,9 @@ void Workspace::drawQuestion(Studio& studio) {
         ImGui::OpenPopup(kTitle);
     }
     asksQuit_ = false;
-    ImGui::SetNextWindowPos({0.5f * ImGui::GetIO().DisplaySize.x, 0.3f * ImGui::GetIO().DisplaySize.y},
-                            ImGuiCond_Always, {0.5f, 0.0f});
+    ImGui::SetNextWindowPos(
+        {0.5f * ImGui::GetIO().DisplaySize.x, 0.3f * ImGui::GetIO().DisplaySize.y},
+        ImGuiCond_Always, {0.5f, 0.0f});
     if (!ImGui::BeginPopupModal(kTitle, nullptr,
                                 ImGuiWindowFlags_AlwaysAutoResize |
                                     ImGuiWindowFlags_NoSavedSettings)) {
@@ -228,8 +229,9 @@ void Workspace::drawHelp() {
     if (!view_.help) {
         return;
     }
-    ImGui::SetNextWindowPos({0.5f * ImGui::GetIO().DisplaySize.x, 0.5f * ImGui::GetIO().DisplaySize.y},
-                            ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowPos(
+        {0.5f * ImGui::GetIO().DisplaySize.x, 0.5f * ImGui::GetIO().DisplaySize.y},
+        ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::Begin("Keys", &view_.help,
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove);

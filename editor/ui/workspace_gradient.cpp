@@ -53,8 +53,8 @@ void addStop(Studio& studio, model::Id key) {
             widest = i;
         }
     }
-    studio.runOnce(model::AddStop{
-        key, model::atFromAxis(0.5 * (places[widest - 1] + places[widest]), kind)});
+    studio.runOnce(
+        model::AddStop{key, model::atFromAxis(0.5 * (places[widest - 1] + places[widest]), kind)});
 }
 
 /// Stops if any are selected, else the key that is selected.

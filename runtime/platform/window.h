@@ -133,8 +133,8 @@ struct FocusLostEvent {};
 /// The user asked to close the window.
 struct CloseEvent {};
 
-using Event = std::variant<KeyEvent, TextEvent, ButtonEvent, MotionEvent, WheelEvent, DropEvent, DamageEvent,
-                           FocusLostEvent, CloseEvent>;
+using Event = std::variant<KeyEvent, TextEvent, ButtonEvent, MotionEvent, WheelEvent, DropEvent,
+                           DamageEvent, FocusLostEvent, CloseEvent>;
 
 /// A window whose core context of OpenGL 3.3 or later is current, with debug output where the
 /// driver has it. One window at a time, on one thread.

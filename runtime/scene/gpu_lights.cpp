@@ -63,8 +63,8 @@ void GpuLights::keep(GpuLights&& before) {
     }
     for (std::size_t i = 0; i < lights_.size(); ++i) {
         Light& light = lights_[i];
-        const bool painted = !fits || i >= before.lights_.size() ||
-                             !light.map.keep(before.lights_[i].map);
+        const bool painted =
+            !fits || i >= before.lights_.size() || !light.map.keep(before.lights_[i].map);
         light.painting = painted ? ++paintings_ : before.lights_[i].painting;
         if (!painted && maps_) {
             light.uploaded = before.lights_[i].uploaded;

@@ -439,8 +439,8 @@ core::Result<Frame> Renderer::render(const View& view, const RenderSettings& set
     });
 }
 
-core::Result<Frame> Renderer::draw(const View& view, const RenderSettings& settings,
-                                   float exposure, unsigned framebuffer) {
+core::Result<Frame> Renderer::draw(const View& view, const RenderSettings& settings, float exposure,
+                                   unsigned framebuffer) {
     State& state = *state_;
     LODESTAR_EXPECT(exposure > 0.0f, "an exposure is a factor above 0");
     if (!state.presenter) {

@@ -94,7 +94,8 @@ public:
         unsetenv("DISPLAY");
     }
     [[nodiscard]] const std::string& name() const { return name_; }
-    /// Waits for both: a window that is mapped while the manager takes over may be shown by neither.
+    /// Waits for both: a window that is mapped while the manager takes over may be shown by
+    /// neither.
     [[nodiscard]] bool isReady() const {
         return !name_.empty() && soon([] {
             return output("xdotool get_num_desktops && echo ready").find("ready") !=

@@ -134,8 +134,8 @@ protected:
     [[nodiscard]] static core::Image part(const core::Image& whole, const ui::Mark& mark) {
         const int left = static_cast<int>(mark.low.x);
         const int top = static_cast<int>(mark.low.y);
-        core::Image cut(static_cast<int>(mark.high.x) - left,
-                        static_cast<int>(mark.high.y) - top, whole.channels());
+        core::Image cut(static_cast<int>(mark.high.x) - left, static_cast<int>(mark.high.y) - top,
+                        whole.channels());
         for (int y = 0; y < cut.height(); ++y) {
             for (int x = 0; x < cut.width(); ++x) {
                 std::copy_n(whole.at(left + x, top + y), whole.channels(), cut.at(x, y));

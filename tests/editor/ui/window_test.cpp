@@ -99,7 +99,8 @@ protected:
     /// Where LODESTAR_SCREENSHOTS names a folder, what is shown is left there to be looked at.
     void keep(const std::string& name) {
         if (const char* folder = std::getenv("LODESTAR_SCREENSHOTS")) {
-            output("import -window " + window_ + " " + std::string(folder) + "/window-" + name + ".png");
+            output("import -window " + window_ + " " + std::string(folder) + "/window-" + name +
+                   ".png");
         }
     }
     core::Image shown() {

@@ -28,7 +28,8 @@ glm::dvec3 oklab(const glm::vec3& encoded) {
 // where a sixteenth of the curve turns by 20 degrees, and floats of sRGB keep a step to 1e-5.
 TEST(FalseColor, EqualStepsLookEquallyFarApartAndEverLighter) {
     constexpr int kParts = 16;
-    const double whole = glm::distance(oklab(ui::falseColor(0.0)), oklab(ui::falseColor(1.0 / kParts)));
+    const double whole =
+        glm::distance(oklab(ui::falseColor(0.0)), oklab(ui::falseColor(1.0 / kParts)));
     for (int i = 1; i < kParts; ++i) {
         const glm::dvec3 from = oklab(ui::falseColor(static_cast<double>(i) / kParts));
         const glm::dvec3 to = oklab(ui::falseColor((i + 1.0) / kParts));
