@@ -128,18 +128,18 @@ void expectRungs(const Ladder& ladder, double tent, const std::vector<Rung>& run
     }
 }
 
-/// Our own figure and a tenth more, and better than one fetch from tents.
-double expectOwn(const Ladder& ladder, const Estimator& estimator, double own, double tent) {
+/// A figure and a tenth more, and better than one fetch from tents.
+double expectWithin(const Ladder& ladder, const Estimator& estimator, double figure, double tent) {
     const double rms = ladder.report(estimator);
-    EXPECT_LE(rms, 1.1 * own) << lighting::estimatorName(estimator);
+    EXPECT_LE(rms, 1.1 * figure) << lighting::estimatorName(estimator);
     EXPECT_LT(rms, tent) << lighting::estimatorName(estimator);
     return rms;
 }
 
-// One fetch from levels that are means over lobes: sums over the map's own texels are no better, to
-// a hundredth.
-void expectPrefiltered(Ladder& ladder, double tent, double own) {
-    const double rms = expectOwn(ladder, {EstimatorKind::Prefiltered}, own, tent);
+// One fetch from levels that are means over lobes: .064 and .098 are the best known, our own are
+// .064 and .102. Sums over the map's own texels are no better, to a hundredth.
+void expectPrefiltered(Ladder& ladder, double tent, double known) {
+    const double rms = expectWithin(ladder, {EstimatorKind::Prefiltered}, known, tent);
     ladder.prefilter({.leastSourceWidth = 4096});
     EXPECT_LE(rms, 1.01 * ladder.report({EstimatorKind::Prefiltered}));
 }
@@ -170,8 +170,8 @@ TEST(Ladder, FirstSet) {
     EXPECT_LE(tent, 1.1 * 0.123);
     EXPECT_LE(tent, 1.1 * 0.109);
     EXPECT_LE(tent, 0.5 * mip);
-    expectPrefiltered(ladder, tent, .065);
-    expectOwn(ladder, {EstimatorKind::Taps, 0.0f, 2}, .094, tent);
+    expectPrefiltered(ladder, tent, .064);
+    expectWithin(ladder, {EstimatorKind::Taps, 0.0f, 2}, .094, tent);
     // Our own figures are those that the constants of taps.glsl were fitted to.
     expectRungs(ladder, tent,
                 {{{EstimatorKind::Ring3}, .085, .077},
@@ -198,8 +198,8 @@ TEST(Ladder, SecondSet) {
     EXPECT_LE(tent, 1.1 * 0.20); // the best known for tents alone, and our own figure
     EXPECT_LE(tent, 1.1 * 0.179);
     EXPECT_LE(tent, 0.5 * mip);
-    expectPrefiltered(ladder, tent, .103);
-    expectOwn(ladder, {EstimatorKind::Taps, 0.0f, 2}, .150, tent);
+    expectPrefiltered(ladder, tent, .098);
+    expectWithin(ladder, {EstimatorKind::Taps, 0.0f, 2}, .150, tent);
     // Nothing was fitted on this set.
     expectRungs(ladder, tent,
                 {{{EstimatorKind::Ring3}, .146, .112},
