@@ -121,13 +121,15 @@ Performed performOn(State& state, const InsertStops& command) {
     if (const auto room = checkedRoom(*edit, command.stops.size()); !room) {
         return room.error();
     }
+    document::Gradient given;
+    given.stops = command.stops;
+    auto checked = checkedGradient(std::move(given), edit->kind);
+    if (!checked) {
+        return checked.error();
+    }
     std::vector<Id> created;
-    for (const document::Stop& stop : command.stops) {
-        auto checked = checkedStop(stop, edit->kind);
-        if (!checked) {
-            return checked.error();
-        }
-        created.push_back(edit->insert(edit->gradient.stops.size(), std::move(*checked)));
+    for (document::Stop& stop : checked->stops) {
+        created.push_back(edit->insert(edit->gradient.stops.size(), std::move(stop)));
     }
     edit->sort();
     return created;

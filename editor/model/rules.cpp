@@ -74,6 +74,30 @@ core::Result<document::Stop> checkedStop(document::Stop stop, lighting::LightKin
     return stop;
 }
 
+namespace {
+
+/// A key as it is read again, where it has members that no version knows: they are text, which
+/// might be none or too deep. @pre its numbers are checked
+core::Result<document::Key> asReadUnknown(document::Key key, lighting::LightKind kind) {
+    const std::vector<document::Stop>& stops = key.gradient.stops;
+    if (key.unknown.empty() && key.gradient.unknown.empty() &&
+        std::all_of(stops.begin(), stops.end(),
+                    [](const document::Stop& stop) { return stop.unknown.empty(); })) {
+        return key;
+    }
+    document::Document document;
+    document.lights.emplace_back();
+    document.lights.front().kind = kind;
+    document.lights.front().keys.push_back(std::move(key));
+    auto read = asRead(document);
+    if (!read) {
+        return core::refused(read.error().what);
+    }
+    return std::move(read->lights.front().keys.front());
+}
+
+} // namespace
+
 core::Result<document::Gradient> checkedGradient(document::Gradient gradient,
                                                  lighting::LightKind kind) {
     if (gradient.stops.empty()) {
@@ -89,7 +113,13 @@ core::Result<document::Gradient> checkedGradient(document::Gradient gradient,
         }
         stop = std::move(*checked);
     }
-    return gradient;
+    document::Key key;
+    key.gradient = std::move(gradient);
+    auto read = asReadUnknown(std::move(key), kind);
+    if (!read) {
+        return read.error();
+    }
+    return std::move(read->gradient);
 }
 
 core::Result<glm::dvec3> checkedTint(const glm::dvec3& tint) {
@@ -133,7 +163,7 @@ core::Result<document::Key> checkedKey(document::Key key, lighting::LightKind ki
         }
         key.axis = *axis;
     }
-    return key;
+    return asReadUnknown(std::move(key), kind);
 }
 
 core::Result<document::Light> checkedValues(document::Light light) {
@@ -216,7 +246,7 @@ core::Result<void> checkedSize(const document::Document& document) {
     }
     if (most > document::kMaxTextBytes &&
         document::writeDocument(document).size() > document::kMaxTextBytes) {
-        return core::refused("a lighting document has at most 64 MiB of text");
+        return core::refused("a lighting document has at most 64 MiB");
     }
     return {};
 }

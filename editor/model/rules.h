@@ -25,7 +25,8 @@ namespace lodestar::model {
 /// @errors InputRefused: stop_commands.h
 [[nodiscard]] core::Result<document::Stop> checkedStop(document::Stop stop,
                                                        lighting::LightKind kind);
-/// Every stop by `checkedStop`. @errors InputRefused: none, more than kMostStops
+/// Every stop by `checkedStop`; members that no version knows as they are read. @errors
+/// InputRefused: none, more than kMostStops
 [[nodiscard]] core::Result<document::Gradient> checkedGradient(document::Gradient gradient,
                                                                lighting::LightKind kind);
 /// @errors InputRefused: not finite, negative, above 1e9

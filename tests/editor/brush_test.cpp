@@ -8,7 +8,6 @@
 namespace lodestar::model {
 namespace {
 
-using lighting::GradientStop;
 using lighting::LightKind;
 
 Model flatSky() {

@@ -64,7 +64,7 @@ inline std::string textOf(const Model& model) {
 }
 
 /// A document of one light with one key, linear in linear radiance.
-inline Model modelOf(lighting::LightKind kind, std::vector<lighting::GradientStop> stops) {
+inline Model modelOf(lighting::LightKind kind, const std::vector<lighting::GradientStop>& stops) {
     document::Document document;
     document.lights.emplace_back();
     document.lights[0].kind = kind;

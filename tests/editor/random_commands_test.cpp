@@ -355,6 +355,7 @@ void passEveryState(std::uint64_t seed) {
         const auto read = document::parseDocument(text, warnings);
         ASSERT_TRUE(read) << i << " " << nameOf(command) << ": " << read.error().message();
         ASSERT_EQ(document::writeDocument(*read), text) << i << " " << nameOf(command);
+        ASSERT_EQ(*read, model.document()) << i << " " << nameOf(command);
         hashes.resize(model.undoCount());
         hashes.push_back(hashOf(text));
         ASSERT_EQ(hashes.size(), model.undoCount() + 1);

@@ -160,6 +160,27 @@ TEST(Refusals, SmallAndOddNumbersAreMended) {
     EXPECT_TRUE(hour >= 0.0 && hour < 24.0) << hour;
 }
 
+TEST(Refusals, UnknownMembersThatAreNoText) {
+    Model model = sampleModel();
+    const Id key = keyId(model);
+    const std::string deep = "{\"x\":" + std::string(80, '[') + std::string(80, ']') + "}";
+    const document::Stop stop{{10.0, glm::dvec3(1), 0.0}, deep};
+    document::Key whole = model.document().lights[0].keys[0];
+    whole.hour = 3.0;
+    whole.gradient.unknown = deep;
+    document::Light light = model.document().lights[0];
+    light.unknown = deep;
+    for (const Command& command :
+         {Command(InsertStops{key, {stop}}), Command(SetGradient{key, whole.gradient}),
+          Command(InsertKey{model.ids().lights[0].id, whole}), Command(AddLight{light})}) {
+        EXPECT_EQ(refusal(model, command), "the document is nested deeper than 64 levels")
+            << nameOf(command);
+    }
+    const Outcome added = did(model, InsertStops{key, {{{10.0, glm::dvec3(1), 0.0}, "no JSON"}}});
+    EXPECT_TRUE(model.stop(added.created.at(0))->unknown.empty());
+    EXPECT_EQ(documentOf(textOf(model)), model.document());
+}
+
 TEST(Refusals, MoreThanTextHolds) {
     Model model = sampleModel();
     const Id key = keyId(model);
@@ -168,15 +189,16 @@ TEST(Refusals, MoreThanTextHolds) {
     document::Gradient gradient;
     gradient.stops.resize(kMostStops + 1);
     EXPECT_EQ(refusal(model, SetGradient{key, gradient}), "a gradient has at most 65536 stops");
-    // Members that no version knows, of many stops: the whole is too much.
-    gradient.stops.resize(60000);
+    // Members that no version knows, of many stops: one key holds them, two are too much.
+    gradient.stops.resize(35000);
     for (document::Stop& stop : gradient.stops) {
         stop.unknown = "{\"x\":\"" + std::string(1100, 'y') + "\"}";
     }
-    EXPECT_EQ(refusal(model, SetGradient{key, gradient}),
-              "a lighting document has at most 64 MiB of text");
-    gradient.stops.resize(6000);
     did(model, SetGradient{key, gradient});
+    const auto second = model.execute(SetGradient{keyId(model, 0, 1), gradient});
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().what, "a lighting document has at most 64 MiB");
+    EXPECT_EQ(model.undoCount(), 1U);
     EXPECT_EQ(documentOf(textOf(model)), model.document());
 }
 

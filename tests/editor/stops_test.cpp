@@ -17,8 +17,8 @@ GradientStop grey(double at, double value, double ev = 0.0) {
     return {at, glm::dvec3(value), ev};
 }
 
-Model skyOf(std::vector<GradientStop> stops) {
-    return modelOf(LightKind::Sky, std::move(stops));
+Model skyOf(const std::vector<GradientStop>& stops) {
+    return modelOf(LightKind::Sky, stops);
 }
 
 std::vector<double> redsOf(const Model& model) {
