@@ -172,7 +172,7 @@ if [ $mode = long ]; then
     export LODESTAR_FUZZ_FACTOR=10 RC_PARAMS="max_success=1000"
     build build-asan all || stop "the sanitizer build failed"
     count "editor, killed 400 times" build -R '^editor_kill_test$' --timeout 1800
-    count "sanitized editor" build-asan -L '^editor$' --timeout 1800
+    LODESTAR_FUZZ_FACTOR=1 count "sanitized editor" build-asan -L '^editor$' --timeout 1800
     count "sanitized unit" build-asan -L '^unit$' --timeout 1800
     count "sanitized numerics" build-asan -L '^numerics$' --timeout 3600
     count "sanitized parity" build-asan -L '^parity$' --timeout 1800
