@@ -156,6 +156,7 @@ TEST(Stops, SimplifyFindsTheCornersOfAPolyline) {
 
 TEST(Stops, TenThousandAreWorkedOnInReasonableTime) {
     std::vector<GradientStop> stops;
+    stops.reserve(10000);
     for (int i = 0; i < 10000; ++i) {
         stops.push_back(grey(90.0 - 0.018 * i, 0.5 + 0.5 * std::sin(0.01 * i)));
     }
@@ -163,6 +164,8 @@ TEST(Stops, TenThousandAreWorkedOnInReasonableTime) {
     const std::string start = textOf(model);
     std::vector<StopMove> moves;
     std::vector<Id> all;
+    moves.reserve(10000);
+    all.reserve(10000);
     for (std::size_t i = 0; i < 10000; ++i) {
         all.push_back(stopId(model, i));
         moves.push_back({all.back(), -90.0 + 0.018 * static_cast<double>(i)});

@@ -195,6 +195,7 @@ TEST(Undo, AnotherDocumentSharesNoNameAndNoRevision) {
 
 TEST(Undo, AStepKeepsWhatItChangedAndNotTheDocument) {
     std::vector<lighting::GradientStop> stops;
+    stops.reserve(10000);
     for (int i = 0; i < 10000; ++i) {
         stops.push_back({90.0 - 0.018 * i, glm::dvec3(0.5), 0.0});
     }
