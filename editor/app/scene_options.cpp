@@ -196,8 +196,16 @@ core::Result<scene::RenderSettings> renderSettings(const SceneOptions& options) 
     return settings;
 }
 
-/// What stands for powers.
-void addForms(CLI::App& command, SceneOptions& options) {
+/// Estimators of environment light, and the forms of lobes and of Fresnel's reflectance.
+void addEstimators(CLI::App& command, SceneOptions& options) {
+    command.add_option("--specular", options.specular,
+                       "Glossy estimator: tent (default), auto:ERROR, ring:3, ring:7, taps:N,\n"
+                       "prefiltered, mip, mip-floor, bias:LAMBDA, bias:LAMBDA:vertex.\n"
+                       "Of a document's lights, both terms: rsrm (default), rsrm-published,\n"
+                       "rsrm-published-columns");
+    command.add_option(
+        "--diffuse", options.diffuse,
+        "Diffuse estimator: irradiance (default), sh9, lowest-mip, bias:LAMBDA, or the lights'");
     command
         .add_option("--lobes", options.lobes,
                     "Highlights of the scene's lamps: power, or sg, spherical Gaussians")
@@ -245,15 +253,7 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("--time", options.time,
                        "Seconds into the animation (default the first); its ends hold outside it");
     command.add_option("--size", options.size, "Picture size WxH")->capture_default_str();
-    command.add_option("--specular", options.specular,
-                       "Glossy estimator: tent (default), auto:ERROR, ring:3, ring:7, taps:N,\n"
-                       "prefiltered, mip, mip-floor, bias:LAMBDA, bias:LAMBDA:vertex.\n"
-                       "Of a document's lights, both terms: rsrm (default), rsrm-published,\n"
-                       "rsrm-published-columns");
-    command.add_option(
-        "--diffuse", options.diffuse,
-        "Diffuse estimator: irradiance (default), sh9, lowest-mip, bias:LAMBDA, or the lights'");
-    addForms(command, options);
+    addEstimators(command, options);
     command.add_option("--override-material", options.materialOverride,
                        "diffuse=R,G,B,f0=R,G,B,exponent=S for every material");
     command

@@ -11,7 +11,7 @@ LODESTAR_FN vec3 lodestar_host_irradiance(int slot, vec3 normal) {
 }
 
 /// The sum of a normalised Phong lobe over the whole sphere, by the midpoint rule in its cosine.
-LODESTAR_FN Real hazard_lobeSum(Real exponent) {
+LODESTAR_FN Real lodestar_lobeSum(Real exponent) {
     Real sum = 0.0f;
     for (int i = 0; i < 512; ++i) {
         Real cosine = 1.0f - (Real(i) + 0.5f) / 256.0f;
