@@ -3,6 +3,7 @@
 // The workspace's answers to the keys of the gradient and of what is selected.
 #include <algorithm>
 
+#include "model/clipboard.h"
 #include "model/ramp.h"
 #include "ui/actions.h"
 #include "ui/workspace.h"
@@ -67,11 +68,58 @@ void deleteSelected(Studio& studio) {
     }
 }
 
+/// Stops if any are selected, else the key, else the material that is selected.
+/// @return whether there was anything
+bool copySelected(Studio& studio) {
+    const model::Selection& selection = studio.model.selection();
+    core::Result<std::string> text = std::string();
+    if (!selection.stops.empty()) {
+        text = model::copyStops(studio.model, selection.stops);
+    } else if (selection.key != model::Id::None) {
+        text = model::copyKey(studio.model, selection.key);
+    } else if (!selection.materials.empty()) {
+        text = model::copyMaterial(studio.model, selection.materials.front());
+    }
+    if (!text) {
+        studio.say(text.error().message(), true);
+        return false;
+    }
+    if (text->empty()) {
+        studio.say("nothing is selected to be copied", true);
+        return false;
+    }
+    ImGui::SetClipboardText(text->c_str());
+    return true;
+}
+
+void paste(Studio& studio) {
+    const char* text = ImGui::GetClipboardText();
+    const model::PasteTarget target{studio.chosenKey(), studio.chosenLight(), studio.view.hour,
+                                    studio.model.selection().materials};
+    auto command = model::pasteCommand(studio.model, text != nullptr ? text : "", target);
+    if (!command) {
+        studio.say(command.error().message(), true);
+        return;
+    }
+    studio.runOnce(*command);
+}
+
 } // namespace
 
 bool Workspace::performOnGradient(Studio& studio, const Binding& binding) {
     const model::Id key = studio.chosenKey();
     switch (binding.action) {
+    case Action::Copy:
+        (void)copySelected(studio);
+        return true;
+    case Action::Cut:
+        if (copySelected(studio)) {
+            deleteSelected(studio);
+        }
+        return true;
+    case Action::Paste:
+        paste(studio);
+        return true;
     case Action::Delete:
         deleteSelected(studio);
         return true;

@@ -400,6 +400,40 @@ scene::Scene floorAndBlocker() {
     return scene::buildScene(std::move(file));
 }
 
+TEST_F(Lights, ARepaintedLightUploadsItselfAloneAndLooksAsSetAnew) {
+    const scene::Scene scene = whiteSphere(32);
+    auto kept = scene::Renderer::make(device(), scene);
+    auto anew = scene::Renderer::make(device(), scene);
+    ASSERT_TRUE(kept.ok() && anew.ok());
+    scene::RenderSettings settings;
+    settings.width = settings.height = 32;
+    settings.hour = 15.0;
+    std::vector<DayLight> lights = {paintedSky(), paintedSun({0.4, 0.8, 0.3})};
+    const auto uploads = [&](scene::Renderer& renderer) {
+        auto frame = renderer.render(testing::frontView(scene), settings);
+        EXPECT_TRUE(frame.ok());
+        const auto ran = [&](const std::string& subject) {
+            return std::count_if(frame->plan->effects.begin(), frame->plan->effects.end(),
+                                 [&](const plan::Effect& effect) {
+                                     return effect.effect == "rsrm-blend" &&
+                                            effect.subject == subject &&
+                                            effect.decision == plan::Decision::Run;
+                                 });
+        };
+        return std::pair(std::pair(ran("sky"), ran("sun")), frame->radiance.pixels());
+    };
+    (*kept)->setLights(inOrder(lights));
+    EXPECT_EQ(uploads(**kept).first, std::pair(1L, 1L));
+    (*kept)->setLights(inOrder(lights));
+    EXPECT_EQ(uploads(**kept).first, std::pair(0L, 0L)) << "nothing was painted";
+    lights[0].keys[1].gradient.stops[0].color = {0.0, 2.0, 0.0};
+    (*kept)->setLights(inOrder(lights));
+    (*anew)->setLights(inOrder(lights));
+    const auto painted = uploads(**kept);
+    EXPECT_EQ(painted.first, std::pair(1L, 0L));
+    EXPECT_EQ(painted.second, uploads(**anew).second);
+}
+
 TEST_F(Lights, ShadowsFallWhereRaysSay) {
     const scene::Scene scene = floorAndBlocker();
     auto renderer = scene::Renderer::make(device(), scene);

@@ -101,6 +101,17 @@ TEST_F(EditorTest, StopsAreAddedDraggedTypedAndDeleted) {
     EXPECT_EQ(stops(), before) << "dragged away";
 }
 
+TEST_F(EditorTest, StopsAreCutAndPasted) {
+    click(onRamp(0.25f));
+    const std::string text = document::writeDocument(model().document());
+    control(Key::X);
+    EXPECT_NE(document::writeDocument(model().document()), text);
+    EXPECT_EQ(model().undoCount(), 2u);
+    control(Key::V);
+    EXPECT_EQ(document::writeDocument(model().document()), text);
+    EXPECT_EQ(model().undoCount(), 3u);
+}
+
 TEST_F(EditorTest, TheLastTwoStopsStay) {
     control(Key::A);
     press(Key::Delete);
