@@ -2,6 +2,7 @@
 //
 // `lodestar edit` in a real window on a virtual display: a user's way through it, each step seen in
 // the part of the window where it must be.
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -165,6 +166,14 @@ TEST_F(EditorWindow, PaintsUndoesSavesAndCloses) {
     ASSERT_TRUE(soon([this] { return std::filesystem::exists(file_); })) << "not saved";
     const document::Document document = saved();
     ASSERT_EQ(document.lights.size(), 2u);
+    std::size_t white = 0; // stops that the brush left: radiance 1 in all channels
+    for (const document::Key& key : document.lights[0].keys) {
+        white += static_cast<std::size_t>(std::count_if(
+            key.gradient.stops.begin(), key.gradient.stops.end(), [](const document::Stop& stop) {
+                return stop.stop.color == glm::dvec3(1.0) && stop.stop.ev == 0.0;
+            }));
+    }
+    EXPECT_GE(white, 2u) << "what was painted is not in the file";
     EXPECT_FALSE(std::filesystem::exists("imgui.ini"));
 
     do {
@@ -173,13 +182,6 @@ TEST_F(EditorWindow, PaintsUndoesSavesAndCloses) {
     RunResult ended = run_.get();
     EXPECT_EQ(ended.status, 0) << ended.err;
     EXPECT_EQ(ended.err, "");
-
-    run(); // again, with what was saved
-    keep("3-again");
-    EXPECT_GT(changed(first, kViewport), 0.2) << "what was saved is not shown";
-    output("xdotool windowactivate --sync " + window_ + " key --delay 100 ctrl+q");
-    ended = run_.get();
-    EXPECT_EQ(ended.status, 0) << ended.err;
 }
 
 TEST(Editor, WithoutADisplayItSaysSoAndIsStatusFour) {
