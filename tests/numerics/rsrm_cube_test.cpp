@@ -54,7 +54,7 @@ core::Image panoramaOf(const RadianceProfile& profile, const glm::dvec3& axis, i
 double worstDifference(const char* name, const Gradient& gradient, const glm::dvec3& axis) {
     const RadianceProfile profile(gradient, LightKind::Sky);
     const core::Image panorama = panoramaOf(profile, axis, 512);
-    const PreparedEnvironment cube{cubeFromLatLong(panorama, 256), {}, {}, {}, {}};
+    const PreparedEnvironment cube{cubeFromLatLong(panorama, 256), {}, {}, {}, {}, {}};
     RsrmKernels kernels;
     const auto kernel = kernels.get(kRsrm, LightKind::Sky);
     const RsrmTexels map =
