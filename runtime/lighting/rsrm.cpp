@@ -2,6 +2,7 @@
 #include "lighting/rsrm.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -209,16 +210,18 @@ RsrmTexels encode(const RsrmLayout& layout, const RsrmBake& bake) {
 }
 
 std::vector<glm::vec3> unfiltered(const RadianceProfile& profile) {
-    // Found by bisection, always the same: most of the time of an edit if made for each.
-    static const std::vector<double> edges = [] {
+    // Found by bisection, always the same: most of the time of an edit if made for each. An array,
+    // for what lives on is not the host's memory.
+    static const auto kept = [] {
         const std::vector<double> angles = columnAngles(RsrmColumns::Refined, kGradientColumns);
-        std::vector<double> made{0.0};
+        std::array<double, kGradientColumns + 1> made{};
         for (std::size_t i = 0; i + 1 < angles.size(); ++i) {
-            made.push_back(0.5 * (angles[i] + angles[i + 1]));
+            made[i + 1] = 0.5 * (angles[i] + angles[i + 1]);
         }
-        made.push_back(std::numbers::pi);
+        made.back() = std::numbers::pi;
         return made;
     }();
+    const std::vector<double> edges(kept.begin(), kept.end());
     const std::vector<glm::dvec3> means = ringMeans(profile, edges);
     return {means.begin(), means.end()};
 }

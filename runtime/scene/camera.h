@@ -24,6 +24,10 @@ struct View {
     bool perspective = true;
 
     [[nodiscard]] glm::mat4 clipFromWorld() const { return clipFromCamera * cameraFromWorld; }
+    /// Where the viewer is, homogeneous: a direction where the view is orthographic.
+    [[nodiscard]] glm::vec4 viewer() const {
+        return perspective ? glm::vec4(position, 1.0f) : glm::vec4(towardsViewer, 0.0f);
+    }
     bool operator==(const View&) const = default;
 };
 

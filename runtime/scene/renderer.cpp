@@ -8,7 +8,6 @@
 #include <limits>
 
 #include <epoxy/gl.h>
-#include <glm/gtc/matrix_inverse.hpp>
 
 #include "gl/timer.h"
 #include "scene/draw_list.h"
@@ -33,11 +32,6 @@ using Clock = std::chrono::steady_clock;
 
 /// Largest side of a tile, in samples: 2048^2 of colour and depth are 80 MiB.
 constexpr int kTileSide = 2048;
-
-/// LodestarFrame::cameraPosition.
-glm::vec4 cameraOf(const View& view) {
-    return view.perspective ? glm::vec4(view.position, 1.0f) : glm::vec4(view.towardsViewer, 0.0f);
-}
 
 double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -414,7 +408,7 @@ core::Result<Frame> Renderer::State::drawFrame(const View& view, const RenderSet
         bindLight(settings, block);
         drawer.drawPicture(plan, settings, probes);
     };
-    if (auto drawn = drawTiles(view, settings, frameBlockFor(settings, cameraOf(view)), drawTile,
+    if (auto drawn = drawTiles(view, settings, frameBlockFor(settings, view.viewer()), drawTile,
                                sinkFor(frame), frame.timesMs["draw"]);
         !drawn) {
         return drawn.error();
@@ -467,7 +461,7 @@ core::Result<core::Image> Renderer::redraw(const View& view, const RenderSetting
     LODESTAR_EXPECT(!taps || !state.environment.empty(), "a reference is of an environment");
     RenderSettings settings = given;
     settings.samplesPerSide = 1;
-    blocks::LodestarFrame block = state.frameBlockFor(settings, cameraOf(view));
+    blocks::LodestarFrame block = state.frameBlockFor(settings, view.viewer());
     if (taps) {
         LODESTAR_EXPECT(taps->first >= 0 && taps->step > 0 && taps->first < taps->total &&
                             taps->total <= 16384,
