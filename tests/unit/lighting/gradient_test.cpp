@@ -211,4 +211,46 @@ TEST(Zones, EdgesAreEqualInTheirOwnMeasure) {
     }
 }
 
+// Rings of any width, narrow and wide beside the pieces between stops: a ring's mean is that of its
+// two halves.
+TEST(Zones, ARingIsItsHalves) {
+    using Interpolation = GradientInterpolation;
+    for (const auto interpolation : {Interpolation::Linear, Interpolation::Constant,
+                                     Interpolation::Smooth, Interpolation::Cubic}) {
+        for (const auto space :
+             {GradientSpace::Linear, GradientSpace::Oklab, GradientSpace::Srgb}) {
+            const RadianceProfile profile({{{90.0, glm::dvec3(0.2, 0.5, 2.0), 0.0},
+                                            {20.0, glm::dvec3(3.0, 1.0, 0.5), 1.0},
+                                            {1.5, glm::dvec3(1.0, 1.0, 1.0), 0.0},
+                                            {0.0, glm::dvec3(0.5, 0.3, 0.2), 2.0},
+                                            {-90.0, glm::dvec3(0.4, 0.4, 0.4), 0.0}},
+                                           interpolation,
+                                           space},
+                                          LightKind::Sky);
+            for (const int rings : {7, 60, 500, 2048}) {
+                std::vector<double> edges;
+                std::vector<double> halves;
+                for (int i = 0; i <= 2 * rings; ++i) {
+                    halves.push_back(std::numbers::pi * i / (2.0 * rings));
+                    if (i % 2 == 0) {
+                        edges.push_back(halves.back());
+                    }
+                }
+                const auto whole = ringMeans(profile, edges);
+                const auto parts = ringMeans(profile, halves);
+                for (std::size_t j = 0; j < whole.size(); ++j) {
+                    const double a = ringArea(halves[2 * j], halves[2 * j + 1]);
+                    const double b = ringArea(halves[2 * j + 1], halves[2 * j + 2]);
+                    const glm::dvec3 mean = (a * parts[2 * j] + b * parts[2 * j + 1]) / (a + b);
+                    for (int c = 0; c < 3; ++c) {
+                        ASSERT_NEAR(whole[j][c], mean[c], 1e-8 * mean[c])
+                            << static_cast<int>(interpolation) << static_cast<int>(space) << " "
+                            << rings << " " << j;
+                    }
+                }
+            }
+        }
+    }
+}
+
 } // namespace lodestar::lighting
