@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "host_pictures.h"
+#include "model/document_file.h"
+#include "model/stop_commands.h"
 
 namespace lodestar::testing {
 namespace {
@@ -41,6 +43,25 @@ TEST(Host, ADocumentLightsItAsItLightsUs) {
     // What must fail the gate: another hour, another place.
     EXPECT_FALSE(passes(byHost(folder, moved, lighting, "9.5"), own, "half an hour later"));
     EXPECT_FALSE(passes(byHost(folder, scene, lighting, "9"), own, "not moved"));
+}
+
+TEST(Host, ASkyPaintedInTheEditorLightsIt) {
+    const TemporaryFolder folder;
+    const std::string scene = spheres(folder, 2.2);
+    const std::string lighting = day(folder);
+    const core::Image before = byUs(folder, scene, lighting, "12");
+    model::Model model;
+    core::Tally warnings;
+    auto file = model::DocumentFile::open(lighting, model, warnings);
+    ASSERT_TRUE(file) << file.error().message();
+    ASSERT_TRUE(model.execute(
+        model::BrushStroke{model.ids().lights.at(0).keys.at(0).id,
+                           {.size = 30.0, .strength = 0.8, .color = glm::dvec3(2.0, 0.2, 0.1)},
+                           {60.0, 35.0, 20.0}}));
+    ASSERT_TRUE(file->save(model));
+    const core::Image own = byUs(folder, scene, lighting, "12");
+    EXPECT_TRUE(passes(byHost(folder, scene, lighting, "12"), own, "painted"));
+    EXPECT_FALSE(passes(before, own, "not painted"));
 }
 
 TEST(Host, ADocumentsEnvironmentLightsIt) {
