@@ -15,6 +15,7 @@
 #include "io/environment_file.h"
 #include "lighting/environment.h"
 #include "lighting/photographed_lights.h"
+#include "lighting/zonal_picture.h"
 #include "lodestar/cube.glsl"
 
 namespace lodestar::app {
@@ -53,11 +54,8 @@ core::Image pictureOf(const lighting::Gradient& sky, const glm::dvec3& axis) {
     const lighting::RadianceProfile profile(sky, LightKind::Sky);
     core::Image image(4 * kCubeWidth, 2 * kCubeWidth, 3);
     for (int y = 0; y < image.height(); ++y) {
-        const double theta = (y + 0.5) / image.height() * std::numbers::pi;
         for (int x = 0; x < image.width(); ++x) {
-            const double phi = ((x + 0.5) / image.width() - 0.5) * 2.0 * std::numbers::pi;
-            const glm::dvec3 d(std::sin(theta) * std::sin(phi), std::cos(theta),
-                               -std::sin(theta) * std::cos(phi));
+            const glm::dvec3 d = lighting::latLongDirection(x + 0.5, y + 0.5, image);
             const glm::dvec3 radiance =
                 profile.radiance(std::acos(glm::clamp(glm::dot(d, axis), -1.0, 1.0)));
             for (int c = 0; c < 3; ++c) {

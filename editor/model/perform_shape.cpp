@@ -6,10 +6,10 @@
 
 #include <glm/common.hpp>
 
+#include "lighting/gradient_simplify.h"
 #include "model/perform.h"
 #include "model/ramp.h"
 #include "model/rules.h"
-#include "model/simplify.h"
 
 namespace lodestar::model {
 namespace {
@@ -34,7 +34,11 @@ Performed performOn(State& state, const SimplifyStops& command) {
         return core::refused("a gradient keeps its last two stops");
     }
     std::vector<document::Stop>& stops = edit->gradient.stops;
-    const std::vector<bool> kept = keptStops(stops, command.count);
+    std::vector<lighting::GradientStop> plain;
+    for (const document::Stop& stop : stops) {
+        plain.push_back(stop.stop);
+    }
+    const std::vector<bool> kept = lighting::keptStops(plain, command.count);
     std::size_t next = 0;
     for (std::size_t i = 0; i < kept.size(); ++i) {
         if (kept[i]) {

@@ -8,10 +8,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "lighting/gradient_simplify.h"
 #include "lighting/zonal_picture.h"
 #include "model/ramp.h"
 #include "model/rules.h"
-#include "model/simplify.h"
 #include "model/stop_commands.h"
 
 namespace lodestar::model {
@@ -30,12 +30,12 @@ core::Result<void> checkedCount(std::size_t stops) {
 }
 
 /// The stops that matter most, linear in linear radiance as the samples are.
-document::Gradient ofStops(std::vector<document::Stop> stops, std::size_t count) {
+document::Gradient ofStops(const std::vector<lighting::GradientStop>& stops, std::size_t count) {
     document::Gradient gradient;
-    const std::vector<bool> kept = keptStops(stops, count);
+    const std::vector<bool> kept = lighting::keptStops(stops, count);
     for (std::size_t i = 0; i < stops.size(); ++i) {
         if (kept[i]) {
-            gradient.stops.push_back(std::move(stops[i]));
+            gradient.stops.push_back({stops[i], {}});
         }
     }
     return gradient;
@@ -73,17 +73,17 @@ core::Result<document::Gradient> gradientOfPanorama(const core::Image& panorama,
         lighting::zonalFromPanorama(panorama, glm::normalize(*checked), lighting::zonesFor(kind))
             .radiance;
     const std::vector<double> edges = lighting::zoneEdges(zonal.zones);
-    std::vector<document::Stop> made;
+    std::vector<lighting::GradientStop> made;
     const auto add = [&](double theta, const glm::dvec3& radiance) {
         const double at = atFromAxis(std::min(theta * (180.0 / std::numbers::pi), 180.0), kind);
-        made.push_back({stopOf(plain(at), plain(radiance)), {}});
+        made.push_back(stopOf(plain(at), plain(radiance)));
     };
     add(0.0, zonal.means.front());
     for (std::size_t i = 0; i < zonal.means.size(); ++i) {
         add(0.5 * (edges[i] + edges[i + 1]), zonal.means[i]);
     }
     add(edges.back(), zonal.means.back());
-    return ofStops(std::move(made), stops);
+    return ofStops(made, stops);
 }
 
 core::Result<document::Gradient> gradientAlongLine(const core::Image& picture,
@@ -106,16 +106,16 @@ core::Result<document::Gradient> gradientAlongLine(const core::Image& picture,
     if (*from == *to) {
         return core::refused("the ends of a line stand for different angles");
     }
-    std::vector<document::Stop> made;
+    std::vector<lighting::GradientStop> made;
     for (int i = 0; i < kLinePlaces; ++i) {
         const double t = i / (kLinePlaces - 1.0);
         const double at = plain((1.0 - t) * *from + t * *to);
-        made.push_back({stopOf(at, plain(read(picture, line.from + t * span))), {}});
+        made.push_back(stopOf(at, plain(read(picture, line.from + t * span))));
     }
     if (fromAxis(*from, kind) > fromAxis(*to, kind)) {
         std::reverse(made.begin(), made.end());
     }
-    return ofStops(std::move(made), stops);
+    return ofStops(made, stops);
 }
 
 } // namespace lodestar::model

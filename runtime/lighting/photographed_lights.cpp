@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/contract.h"
+#include "lighting/gradient_simplify.h"
 #include "lighting/zonal.h"
 #include "lighting/zonal_picture.h"
 
@@ -26,23 +27,16 @@ constexpr double kDarkened = 2.0;       ///< times the surroundings: there a sun
 constexpr double kLeastContrast = 10.0; ///< over the surroundings
 constexpr double kLeastShare = 0.02;    ///< of all light
 constexpr std::size_t kSunStops = 12;   ///< at most, one for a ring
-constexpr std::size_t kMostSkyStops = 16;
-constexpr double kSkyTolerance = 0.05; ///< of the local radiance and a tenth of the mean
+constexpr std::size_t kSkyStops = 16;
 constexpr int kSkyZones = 128;
 
-double luminance(const glm::dvec3& c) {
-    return glm::dot(c, glm::dvec3(0.2126, 0.7152, 0.0722));
-}
-
-/// The texels of a lat-long panorama: top +Y, the centre column -Z, rightwards to +X.
+/// The texels of a lat-long panorama.
 class Texels {
 public:
     explicit Texels(const core::Image& image) : image_(image) {}
 
     [[nodiscard]] glm::dvec3 direction(int x, int y) const {
-        const double theta = (y + 0.5) / image_.height() * kPi;
-        const double phi = ((x + 0.5) / image_.width() - 0.5) * 2.0 * kPi;
-        return {std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)};
+        return latLongDirection(x + 0.5, y + 0.5, image_);
     }
     [[nodiscard]] double solidAngle(int y) const {
         return 4.0 * kPi / image_.width() *
@@ -211,50 +205,23 @@ std::optional<PhotographedSun> takeSun(core::Image& rest, const glm::dvec3& mean
     return sun;
 }
 
-/// How far the straight line between two zones' means is from those between them, at worst, and
-/// where.
-std::pair<double, std::size_t> worstBetween(const std::vector<glm::dvec3>& means, double floor,
-                                            std::size_t from, std::size_t to) {
-    double worst = 0.0;
-    std::size_t where = from;
-    for (std::size_t i = from + 1; i < to; ++i) {
-        const double t = static_cast<double>(i - from) / static_cast<double>(to - from);
-        const glm::dvec3 off = glm::abs(glm::mix(means[from], means[to], t) - means[i]);
-        const double error = luminance(off) / (luminance(means[i]) + floor);
-        if (error > worst) {
-            worst = error;
-            where = i;
-        }
-    }
-    return {worst, where};
-}
-
-/// A sky through few of its zones' means, the worst place first, its energy scaled to be theirs.
+/// A sky through those of its zones' means that matter most, its energy scaled to be theirs.
 Gradient skyGradient(const ZonalRadiance& radiance) {
-    const std::vector<glm::dvec3>& means = radiance.means;
+    const std::size_t zones = radiance.means.size();
     const glm::dvec3 whole = sphereMean(radiance);
-    const double floor = 0.1 * luminance(whole);
-    std::vector<std::size_t> kept{0, means.size() - 1};
-    while (kept.size() < kMostSkyStops) {
-        double worst = 0.0;
-        std::size_t where = 0;
-        for (std::size_t i = 0; i + 1 < kept.size(); ++i) {
-            if (const auto found = worstBetween(means, floor, kept[i], kept[i + 1]);
-                found.first > worst) {
-                worst = found.first;
-                where = found.second;
-            }
-        }
-        if (worst <= kSkyTolerance) {
-            break;
-        }
-        kept.insert(std::upper_bound(kept.begin(), kept.end(), where), where);
+    std::vector<GradientStop> all;
+    for (std::size_t i = 0; i < zones; ++i) {
+        const double middle = (static_cast<double>(i) + 0.5) / static_cast<double>(zones);
+        all.push_back({90.0 - 180.0 * middle, radiance.means[i], 0.0});
     }
+    all.front().at = 90.0;
+    all.back().at = -90.0;
     Gradient gradient;
-    for (const std::size_t i : kept) {
-        const double middle = (static_cast<double>(i) + 0.5) / static_cast<double>(means.size());
-        const double at = i == 0 ? 90.0 : i == means.size() - 1 ? -90.0 : 90.0 - 180.0 * middle;
-        gradient.stops.push_back({at, means[i], 0.0});
+    const std::vector<bool> kept = keptStops(all, kSkyStops);
+    for (std::size_t i = 0; i < zones; ++i) {
+        if (kept[i]) {
+            gradient.stops.push_back(all[i]);
+        }
     }
     const glm::dvec3 has =
         sphereMean(zonalRadiance(RadianceProfile(gradient, LightKind::Sky), radiance.zones));

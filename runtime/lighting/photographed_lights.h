@@ -34,7 +34,7 @@ struct PhotographedLights {
 /// A sun is light within 12 degrees of the brightest place that falls to twice what is about it, in
 /// rings, is ten times as bright there, and at least a fiftieth of all light. Within that
 /// radius each texel gives what it has beyond the mean of the rings about it. The sky's gradient is
-/// piecewise linear through at most 16 stops, where means over azimuth bend most.
+/// piecewise linear through the 16 means over azimuth that keptStops leaves.
 /// @param panorama lat-long as for cubeFromLatLong, linear radiance, 3 channels, repaired
 /// @param axis unit, of the sky  @param takeSun whether a sun is looked for
 [[nodiscard]] PhotographedLights lightsFromPanorama(const core::Image& panorama,

@@ -16,10 +16,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-double luminance(const glm::dvec3& radiance) {
-    return glm::dot(radiance, glm::dvec3(0.2126, 0.7152, 0.0722));
-}
-
 /// Half the arc of the circle of colatitude t that lies within an angle of an axis of colatitude
 /// alpha, by the half-angle formula of docs/derivations/rsrm.md. [0, pi]
 double halfArc(double t, double alpha, double angle) {
@@ -146,6 +142,16 @@ void shareOut(const core::Image& panorama, const glm::dvec3& axis, const std::ve
 }
 
 } // namespace
+
+double luminance(const glm::dvec3& radiance) {
+    return glm::dot(radiance, glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
+glm::dvec3 latLongDirection(double x, double y, const core::Image& panorama) {
+    const double theta = y / panorama.height() * kPi;
+    const double phi = (x / panorama.width() - 0.5) * 2.0 * kPi;
+    return {std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)};
+}
 
 ZonalRadiance zonalFromStrip(const std::vector<glm::dvec3>& texels, const Zones& zones) {
     LODESTAR_EXPECT(!texels.empty(), "a strip has texels");

@@ -13,6 +13,13 @@
 
 namespace lodestar::lighting {
 
+/// Of linear Rec. 709.
+[[nodiscard]] double luminance(const glm::dvec3& radiance);
+
+/// The direction of a place in a lat-long panorama: top +Y, the centre column -Z, rightwards to +X.
+/// @param x, y pixels from the corner, a pixel's centre at one half @param panorama for its size
+[[nodiscard]] glm::dvec3 latLongDirection(double x, double y, const core::Image& panorama);
+
 /// A strip's texels cover equal angles, from the axis (a sky's zenith) to its opposite; each holds
 /// one radiance. Zone means are exact. @pre not empty
 [[nodiscard]] ZonalRadiance zonalFromStrip(const std::vector<glm::dvec3>& texels,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "model/simplify.h"
+#include "lighting/gradient_simplify.h"
 
 #include <cmath>
 #include <functional>
@@ -10,7 +10,7 @@
 
 #include "core/contract.h"
 
-namespace lodestar::model {
+namespace lodestar::lighting {
 namespace {
 
 /// Three stops' triangle of angle and radiance, all channels.
@@ -27,12 +27,12 @@ struct Triangles {
 
 } // namespace
 
-std::vector<bool> keptStops(const std::vector<document::Stop>& stops, std::size_t count) {
+std::vector<bool> keptStops(std::span<const GradientStop> stops, std::size_t count) {
     LODESTAR_EXPECT(count >= 2, "a gradient keeps its last two stops");
     Triangles triangles;
-    for (const document::Stop& stop : stops) {
-        triangles.angles.push_back(stop.stop.at);
-        triangles.radiances.push_back(lighting::radianceOf(stop.stop));
+    for (const GradientStop& stop : stops) {
+        triangles.angles.push_back(stop.at);
+        triangles.radiances.push_back(radianceOf(stop));
     }
     const std::size_t n = triangles.angles.size();
     std::vector<std::size_t> before(n), after(n);
@@ -71,4 +71,4 @@ std::vector<bool> keptStops(const std::vector<document::Stop>& stops, std::size_
     return kept;
 }
 
-} // namespace lodestar::model
+} // namespace lodestar::lighting

@@ -4,17 +4,17 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
-#include "document/document.h"
+#include "lighting/gradient.h"
 
-namespace lodestar::model {
+namespace lodestar::lighting {
 
 /// Which stops stay when all but `count` have gone, first and last among them: again and again the
 /// stop goes whose triangle with its neighbours, of angle and radiance in all channels, is smallest
 /// (Visvalingam and Whyatt 1993). All stay where there are no more than `count`.
 /// @param stops in order  @pre count >= 2
-[[nodiscard]] std::vector<bool> keptStops(const std::vector<document::Stop>& stops,
-                                          std::size_t count);
+[[nodiscard]] std::vector<bool> keptStops(std::span<const GradientStop> stops, std::size_t count);
 
-} // namespace lodestar::model
+} // namespace lodestar::lighting
