@@ -174,6 +174,14 @@ void Editor::answer(const ui::Wishes& wishes) {
     } else if (wishes.saveAs) {
         workspace_.say("saved " + file_.path().string());
     }
+    if (wishes.captureProbe) {
+        const auto which = std::find(shownProbes_.begin(), shownProbes_.end(),
+                                     static_cast<int>(*wishes.captureProbe));
+        if (which != shownProbes_.end()) {
+            shown_.renderer->requestProbe(static_cast<std::size_t>(which - shownProbes_.begin()));
+            stale();
+        }
+    }
     if (wishes.quit && !(wishes.save && model_.dirty())) {
         file_.discardAutosave();
         closing_ = true;
@@ -268,6 +276,7 @@ core::Result<void> Editor::drawPicture() {
         around_.timesMs[step] = ms;
     }
     around_.counters = frame->counters;
+    describeProbes();
     if (around_.plan != frame->plan) {
         around_.plan = frame->plan;
         session_.wake();

@@ -85,6 +85,9 @@ private:
     void syncEnvironment();
     void syncLights();
     void syncMaterials();
+    void syncProbes();
+    /// What the panels are told of the light probes.
+    void describeProbes();
 
     void answer(const ui::Wishes& wishes);
     void moveCamera(const ui::CameraMove& move);
@@ -111,6 +114,10 @@ private:
     std::string scenePath_, assetRoot_;
     Shown shown_;
     bool hasEnvironment_ = false;
+    std::optional<DistantLight> read_; ///< the environment's file, as last read
+    ProbeMaps probeMaps_;
+    core::Tally probeWarnings_;    ///< of the last time that they were set
+    std::vector<int> shownProbes_; ///< by the renderer's order: which of the document's
 
     scene::RenderSettings settings_;
     scene::CameraRequest request_;

@@ -153,11 +153,6 @@ core::Result<Editor::Shown> Editor::openShown(const std::string& path,
     const int index = opened.sceneIndex;
     shown.scene = std::make_unique<scene::Scene>(scene::buildScene(std::move(opened.file), index));
     warn(shown.scene->warnings, path);
-    core::Tally warnings;
-    const OpenedDocument document{file_.path().string(), model_.document(), {}, {}};
-    if (auto added = addDocumentProbes(document, *shown.scene, warnings); !added) {
-        return added.error();
-    }
     shown.materials = shown.scene->materials;
     auto renderer = scene::Renderer::make(*device_, *shown.scene);
     if (!renderer) {
@@ -182,6 +177,8 @@ core::Result<void> Editor::openScene(const std::string& path, const std::string&
     shown_ = std::move(*shown);
     hasEnvironment_ = false;
     everSynced_ = false;
+    around_.low = shown_.bounds.empty() ? glm::vec3(-1.0f) : shown_.bounds.low;
+    around_.high = shown_.bounds.empty() ? glm::vec3(1.0f) : shown_.bounds.high;
     describeScene();
     stale();
     session_.wake();
@@ -197,9 +194,10 @@ void Editor::describeScene() {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         depths.push_back(
             nodes[i].parent < 0 ? 0 : depths[static_cast<std::size_t>(nodes[i].parent)] + 1);
+        const bool named = !nodes[i].name.empty();
         around_.nodes.push_back(
-            {nodes[i].name.empty() ? std::string("node ").append(std::to_string(i)) : nodes[i].name,
-             depths.back(), holdsOf(nodes[i])});
+            {named ? nodes[i].name : std::string("node ").append(std::to_string(i)), depths.back(),
+             holdsOf(nodes[i]), named});
     }
 }
 
@@ -215,11 +213,8 @@ bool Editor::syncDocument() {
     if (everSynced_ && revisions.document == synced_.document) {
         return false;
     }
-    if (everSynced_ && revisions.probes != synced_.probes) {
-        synced_.probes = revisions.probes;
-        if (auto opened = openScene(scenePath_, assetRoot_); !opened) {
-            workspace_.say(opened.error().message(), true);
-        }
+    if (!everSynced_ || revisions.probes != synced_.probes) {
+        syncProbes();
     }
     if (!everSynced_ || revisions.lights != synced_.lights ||
         revisions.environment != synced_.environment) {
@@ -252,7 +247,7 @@ void Editor::syncEnvironment() {
     const DistantLight* light = &shown_.own;
     core::Result<DistantLight> loaded = DistantLight{};
     if (named) {
-        loaded = distantLight({}, {}, opened);
+        loaded = documentEnvironment(opened, io::kDefaultCubeWidth, read_);
         if (!loaded) {
             workspace_.say(loaded.error().message(), true);
             return;

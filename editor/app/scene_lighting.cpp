@@ -10,7 +10,6 @@
 #include "app/command.h"
 #include "io/document_file.h"
 #include "lighting/environment.h"
-#include "scene/probe_observer.h"
 
 namespace lodestar::app {
 namespace {
@@ -18,22 +17,6 @@ namespace {
 constexpr const char* kClearSky = "sky";
 constexpr double kMaxExponent = 1e7;
 constexpr int kWidestFileProbe = 2048; ///< texels of a face
-
-/// The document's environment, its source below the document's own folder.
-core::Result<DistantLight> documentEnvironment(const OpenedDocument& opened, int cubeWidth) {
-    const document::Environment& wanted = *opened.document.environment;
-    const auto source = io::environmentSource(wanted.source, opened.file);
-    if (!source) {
-        return source.error();
-    }
-    auto loaded = io::loadEnvironment(*source, cubeWidth);
-    if (!loaded) {
-        return core::inFile(loaded.error(), *source);
-    }
-    loaded->base =
-        lighting::placed(std::move(loaded->base), lighting::aboutUp(wanted.rotation), wanted.ev);
-    return DistantLight{*source, std::move(*loaded)};
-}
 
 void apply(const document::Material& from, io::GltfMaterial& material, core::Tally& warnings) {
     if (from.exponent || from.diffuse || from.f0) {
@@ -94,6 +77,26 @@ core::Result<std::optional<OpenedDocument>> openDocument(const SceneOptions& opt
     return std::optional<OpenedDocument>(std::move(opened));
 }
 
+core::Result<DistantLight> documentEnvironment(const OpenedDocument& opened, int cubeWidth,
+                                               std::optional<DistantLight>& kept) {
+    const document::Environment& wanted = *opened.document.environment;
+    const auto source = io::environmentSource(wanted.source, opened.file);
+    if (!source) {
+        return source.error();
+    }
+    if (!kept || kept->name != *source || kept->environment.base.width() != cubeWidth) {
+        auto loaded = io::loadEnvironment(*source, cubeWidth);
+        if (!loaded) {
+            return core::inFile(loaded.error(), *source);
+        }
+        kept.emplace(DistantLight{*source, std::move(*loaded)});
+    }
+    DistantLight light = *kept;
+    light.environment.base = lighting::placed(std::move(light.environment.base),
+                                              lighting::aboutUp(wanted.rotation), wanted.ev);
+    return light;
+}
+
 core::Result<DistantLight> distantLight(const SceneOptions& options, const OpenedFile& opened,
                                         const std::optional<OpenedDocument>& document) {
     const std::string& named = options.environment;
@@ -103,7 +106,8 @@ core::Result<DistantLight> distantLight(const SceneOptions& options, const Opene
             : opened.file.scenes[static_cast<std::size_t>(opened.sceneIndex)].environment;
     if (named.empty() && document) {
         if (document->document.environment) {
-            return documentEnvironment(*document, options.cubeWidth);
+            std::optional<DistantLight> kept;
+            return documentEnvironment(*document, options.cubeWidth, kept);
         }
         if (!document->lights.empty()) {
             return DistantLight{};
@@ -141,13 +145,13 @@ void applyMaterials(const document::Document& document, scene::Scene& scene,
     }
 }
 
-core::Result<void> addDocumentProbes(const OpenedDocument& opened, scene::Scene& scene,
-                                     core::Tally& warnings) {
+core::Result<void> setDocumentProbes(const OpenedDocument& opened, scene::Scene& scene,
+                                     ProbeMaps& maps, core::Tally& warnings) {
     std::vector<lighting::Probe> probes;
-    std::vector<lighting::Cubemap> maps;
+    std::vector<scene::ProbeMap> held;
     for (const document::Probe& written : opened.document.probes) {
         probes.push_back(written.probe);
-        maps.emplace_back();
+        held.emplace_back();
         if (written.probe.source.empty()) {
             continue;
         }
@@ -155,15 +159,19 @@ core::Result<void> addDocumentProbes(const OpenedDocument& opened, scene::Scene&
         if (!source) {
             return source.error();
         }
-        auto loaded = io::loadEnvironment(
-            *source, std::min(written.probe.capture.resolution, kWidestFileProbe));
-        if (!loaded) {
-            return core::inFile(loaded.error(), *source);
+        const int width = std::min(written.probe.capture.resolution, kWidestFileProbe);
+        scene::ProbeMap& map = maps[{*source, width}];
+        if (!map) {
+            auto loaded = io::loadEnvironment(*source, width);
+            if (!loaded) {
+                return core::inFile(loaded.error(), *source);
+            }
+            warnings.merge(loaded->warnings);
+            map = std::make_shared<const lighting::Cubemap>(std::move(loaded->base));
         }
-        warnings.merge(loaded->warnings);
-        maps.back() = std::move(loaded->base);
+        held.back() = map;
     }
-    scene::addProbes(scene, probes, maps, warnings);
+    scene::setProbes(scene, probes, held, warnings);
     return {};
 }
 

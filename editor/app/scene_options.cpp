@@ -333,9 +333,10 @@ core::Result<LoadedScene> load(const SceneOptions& given) {
     loaded.scene = scene::buildScene(std::move(opened->file), opened->sceneIndex);
     if (*document) {
         applyMaterials((*document)->document, loaded.scene, loaded.lightWarnings);
-        if (auto added = addDocumentProbes(**document, loaded.scene, loaded.lightWarnings);
-            !added) {
-            return added.error();
+        ProbeMaps maps;
+        if (auto set = setDocumentProbes(**document, loaded.scene, maps, loaded.lightWarnings);
+            !set) {
+            return set.error();
         }
         loaded.lightWarnings.merge((*document)->warnings);
         loaded.lights = std::move((*document)->lights);

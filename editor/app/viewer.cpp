@@ -161,8 +161,9 @@ void Viewer::openScene(const std::string& path, std::optional<int> number) {
     if (*lighting) {
         core::Tally warnings = (*lighting)->warnings;
         applyMaterials((*lighting)->document, built, warnings);
-        if (auto added = addDocumentProbes(**lighting, built, warnings); !added) {
-            say(added.error().message(), true);
+        ProbeMaps maps;
+        if (auto set = setDocumentProbes(**lighting, built, maps, warnings); !set) {
+            say(set.error().message(), true);
             return;
         }
         warn(warnings, (*lighting)->file);

@@ -35,6 +35,15 @@ private:
 void drawLightPanel(Studio& studio);
 /// The materials that are selected: exponent, reflectances, estimator.
 void drawMaterialPanel(Studio& studio);
+/// The environment behind the scene: its source, rotation and exposure.
+void drawEnvironmentPanel(Studio& studio);
+/// The light probe that is selected: where it is, what it captures and when, where it holds.
+void drawProbePanel(Studio& studio);
+/// The selected light probes' volumes over the picture, and handles that move the first of them.
+/// @param low, size of the picture, framebuffer pixels
+void drawProbeGizmo(Studio& studio, const ImVec2& low, const ImVec2& size);
+/// A light probe that holds the whole scene, to begin with.
+[[nodiscard]] lighting::Probe firstProbe(const Studio& studio);
 /// The scene's nodes, its materials, the document's lights.
 void drawScenePanel(Studio& studio);
 /// The plan in words, the times of the last frame, the log.

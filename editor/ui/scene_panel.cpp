@@ -97,12 +97,52 @@ void drawNodes(Studio& studio) {
     }
 }
 
+void drawProbes(Studio& studio) {
+    const std::vector<model::Id> ids = studio.model.ids().probes;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        const lighting::Probe& probe = studio.model.document().probes[i].probe;
+        model::Selection selection = studio.model.selection();
+        const auto place = std::find(selection.probes.begin(), selection.probes.end(), ids[i]);
+        const bool selected = place != selection.probes.end();
+        ImGui::PushID(static_cast<int>(i));
+        const std::string name = probe.name.empty() ? "probe " + std::to_string(i) : probe.name;
+        if (ImGui::Selectable((name + "##probe").c_str(), selected)) {
+            if (!ImGui::GetIO().KeyCtrl) {
+                selection.probes = selected && selection.probes.size() == 1
+                                       ? std::vector<model::Id>()
+                                       : std::vector<model::Id>{ids[i]};
+            } else if (selected) {
+                selection.probes.erase(place);
+            } else {
+                selection.probes.push_back(ids[i]);
+            }
+            studio.model.select(selection);
+        }
+        studio.mark("probe " + std::to_string(i));
+        ImGui::SameLine(ImGui::GetContentRegionMax().x - 4.0f * ImGui::GetFontSize());
+        ImGui::TextColored(kDimText, "%s", probe.exterior ? "exterior" : "interior");
+        ImGui::PopID();
+    }
+    if (button(studio, "Add probe", "")) {
+        studio.runOnce(model::AddProbe{firstProbe(studio)});
+    }
+    const std::vector<model::Id> chosen = studio.model.selection().probes;
+    if (!chosen.empty()) {
+        ImGui::SameLine();
+        if (button(studio, "Remove##probes", "the light probes that are selected")) {
+            studio.runOnce(model::RemoveProbes{chosen});
+        }
+    }
+}
+
 } // namespace
 
 void drawScenePanel(Studio& studio) {
     ImGui::TextColored(kDimText, "%s", studio.around.sceneName.c_str());
     heading("Lights");
     drawLights(studio);
+    heading("Light probes");
+    drawProbes(studio);
     heading("Materials");
     drawMaterials(studio);
     heading("Nodes");

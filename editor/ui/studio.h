@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <imgui.h>
@@ -28,6 +29,16 @@ struct NodeLine {
     std::string name;
     int depth = 0;
     std::string holds; ///< "mesh", "camera", ...
+    bool named = true; ///< the name is the file's
+};
+
+/// A light probe of the document as the scene has it now.
+struct ProbeLine {
+    bool shown = false;    ///< false: the node that it names is not in the scene
+    bool ready = false;    ///< it lights what it holds
+    double progress = 1.0; ///< of the faces that it captures anew, [0, 1]
+    glm::mat4 worldFromProbe{1.0f};
+    bool operator==(const ProbeLine&) const = default;
 };
 
 /// A material of the scene as it is drawn now.
@@ -44,6 +55,9 @@ struct Surroundings {
     std::string sceneName, documentName;
     std::vector<NodeLine> nodes;
     std::vector<MaterialLine> materials;
+    std::vector<ProbeLine> probes;       ///< in the document's order
+    glm::vec3 low{0.0f}, high{1.0f};     ///< world box about the scene
+    glm::mat4 clipFromWorld{1.0f};       ///< of the picture
     std::vector<std::string> estimators; ///< that a material may have
     unsigned picture = 0;                ///< a GL texture of the viewport; 0: none
     std::shared_ptr<const plan::EffectPlan> plan;
@@ -82,7 +96,8 @@ struct Wishes {
     bool save = false, quit = false;
     std::optional<std::string> saveAs, openScene, openLighting;
     CameraMove camera;
-    std::optional<glm::ivec2> pick; ///< a pixel of the viewport, from its top left
+    std::optional<std::size_t> captureProbe; ///< the document's, to be captured anew
+    std::optional<glm::ivec2> pick;          ///< a pixel of the viewport, from its top left
     /// The viewport in the framebuffer: left, top, width, height in pixels.
     std::array<int, 4> viewport{};
 };

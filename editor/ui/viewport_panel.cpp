@@ -43,6 +43,9 @@ void drawViewport(Studio& studio) {
     ImGui::InvisibleButton("##viewport", size,
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                                ImGuiButtonFlags_MouseButtonMiddle);
+    if (!studio.model.selection().probes.empty()) {
+        ImGui::SetItemAllowOverlap(); // of its handles
+    }
     studio.mark("viewport");
     if (ImGui::IsItemHovered()) {
         studio.wishes.camera.dolly = ImGui::GetIO().MouseWheel;
@@ -63,6 +66,7 @@ void drawViewport(Studio& studio) {
             reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(studio.around.picture)), low,
             {low.x + size.x, low.y + size.y}, {0.0f, 1.0f}, {1.0f, 0.0f});
     }
+    drawProbeGizmo(studio, low, size);
 }
 
 } // namespace lodestar::ui

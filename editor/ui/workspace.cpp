@@ -133,7 +133,9 @@ void Workspace::drawPanels(Studio& studio, float top) {
     beginPanel("Properties", right, top, size.x, size.y);
     drawLightPanel(studio);
     gradient_.draw(studio, studio.chosenKey());
+    drawProbePanel(studio);
     drawMaterialPanel(studio);
+    drawEnvironmentPanel(studio);
     ImGui::End();
     beginPanel("Day", left, day, right, report, ImGuiWindowFlags_NoScrollbar);
     day_.draw(studio);

@@ -135,11 +135,15 @@ core::Result<void> GpuProbes::prepare(gl::Device& device, const ProbeObserver& o
         if (!made) {
             return made.error();
         }
-        auto tile = irradiance_.add();
-        if (!tile) {
-            return tile.error();
+        if (freeTiles_.empty()) {
+            auto tile = irradiance_.add();
+            if (!tile) {
+                return tile.error();
+            }
+            freeTiles_.push_back(*tile);
         }
-        made->tile = *tile;
+        made->tile = freeTiles_.back();
+        freeTiles_.pop_back();
         cubes_[index] = std::move(*made);
     }
     for (const plan::ProbeFace& face : plan.probeFaces) {
@@ -148,6 +152,25 @@ core::Result<void> GpuProbes::prepare(gl::Device& device, const ProbeObserver& o
         }
     }
     return {};
+}
+
+void GpuProbes::keep(std::span<const int> which) {
+    std::vector<Cubes> cubes = std::exchange(cubes_, {});
+    if (!cubes.empty()) {
+        cubes_.resize(which.size());
+    }
+    for (std::size_t i = 0; i < cubes_.size(); ++i) {
+        const auto was = static_cast<std::size_t>(which[i]); // none is past all
+        if (was < cubes.size()) {
+            cubes_[i] = std::exchange(cubes[was], {});
+        }
+    }
+    for (const Cubes& lost : cubes) {
+        if (lost.width > 0) {
+            freeTiles_.push_back(lost.tile);
+        }
+    }
+    times_.reset();
 }
 
 void GpuProbes::describeTimes(gl::Device& device, std::span<plan::ProbeView> probes) {

@@ -41,6 +41,9 @@ public:
     [[nodiscard]] core::Result<void> prepare(gl::Device& device, const ProbeObserver& observer,
                                              const plan::EffectPlan& plan, core::Tally& warnings);
 
+    /// Puts what is kept in the order of ProbeObserver::rescan; the rest is given up.
+    void keep(std::span<const int> which);
+
     /// Fills in what each probe takes of the GPU's time. Measured from the first call on.
     void describeTimes(gl::Device& device, std::span<plan::ProbeView> probes);
 
@@ -92,6 +95,7 @@ private:
     gl::VertexArray fullScreen_;
     std::map<int, Staging> staging_; ///< by width
     std::vector<Cubes> cubes_;       ///< by probe
+    std::vector<int> freeTiles_;     ///< of probes that were given up
     /// The first is none's; then each probe's, then each again without its light.
     std::vector<blocks::LodestarProbe> blocks_;
     std::size_t stride_ = 0;

@@ -6,6 +6,7 @@
 
 #include "lighting/gradient.h"
 #include "plan/state_hash.h"
+#include "scene/probe_observer.h"
 
 namespace lodestar::scene {
 
@@ -86,6 +87,22 @@ void describeLights(const Scene& scene, const std::vector<DrawItem>& items, doub
     if (!axes.empty()) {
         shadows.describe(scene, items, axes, input);
     }
+}
+
+plan::PlanInput planInput(const Scene& scene, const View& view, const RenderSettings& settings,
+                          plan::EnvironmentView environment,
+                          const std::vector<lighting::DayLight>& lights) {
+    GpuLights described(lights, lighting::kRsrm, nullptr); // it bakes nothing
+    ShadowMaps shadows;
+    plan::PlanInput input =
+        planInput(scene, view, settings, beside(std::move(environment), described));
+    describeLights(scene, drawItems(scene), settings.hour, described, shadows, input);
+    input.faceBudget = settings.faceBudget;
+    input.probeBudgetMs = settings.probeBudgetMs;
+    if (ProbeObserver observer(scene); !observer.empty()) {
+        observer.describe({}, false, settings.lightThreshold, input);
+    }
+    return input;
 }
 
 } // namespace lodestar::scene

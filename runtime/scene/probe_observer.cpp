@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <unordered_map>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -30,17 +32,89 @@ plan::Moved movedFromTo(std::string subject, const Bounds& before, const Bounds&
     return {std::move(subject), both.low, both.high, way};
 }
 
+/// Whether a probe's light is the only thing at a node that was made for it.
+bool isOwnNode(const Node& node) {
+    const auto* probe = node.components.size() == 1
+                            ? std::get_if<ProbeComponent>(&node.components.front())
+                            : nullptr;
+    return probe != nullptr && probe->probe.node.empty();
+}
+
+bool capturesAs(const ProbeComponent& a, const ProbeComponent& b) {
+    return a.map == b.map && a.probe.capture == b.probe.capture;
+}
+
+/// Which of `before` each of `now` is, or -1: one that is equal, else one that captures alike at
+/// its place.
+std::vector<int> sameProbes(const std::vector<ProbeComponent>& before,
+                            const std::vector<ProbeComponent>& now) {
+    std::unordered_multimap<std::string_view, std::size_t> byName;
+    for (std::size_t i = before.size(); i-- > 0;) {
+        byName.emplace(before[i].probe.name, i);
+    }
+    std::vector<int> which(now.size(), -1);
+    std::vector<bool> taken(before.size(), false);
+    const auto take = [&](std::size_t i, std::size_t was) {
+        which[i] = static_cast<int>(was);
+        taken[was] = true;
+    };
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        const auto [first, end] = byName.equal_range(now[i].probe.name);
+        const auto same = std::find_if(first, end, [&](const auto& named) {
+            const ProbeComponent& was = before[named.second];
+            return !taken[named.second] && was.map == now[i].map && was.probe == now[i].probe;
+        });
+        if (same != end) {
+            take(i, same->second);
+        }
+    }
+    for (std::size_t i = 0; i < std::min(now.size(), before.size()); ++i) {
+        if (which[i] < 0 && !taken[i] && capturesAs(before[i], now[i])) {
+            take(i, i);
+        }
+    }
+    return which;
+}
+
 } // namespace
 
 ProbeObserver::ProbeObserver(const Scene& scene) : scene_(scene) {
-    for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
-        for (std::size_t c = 0; c < scene.nodes[n].components.size(); ++c) {
-            if (std::holds_alternative<ProbeComponent>(scene.nodes[n].components[c])) {
+    findPlaces();
+    histories_.resize(places_.size());
+}
+
+void ProbeObserver::findPlaces() {
+    places_.clear();
+    known_.clear();
+    for (std::size_t n = 0; n < scene_.nodes.size(); ++n) {
+        for (std::size_t c = 0; c < scene_.nodes[n].components.size(); ++c) {
+            if (const auto* probe = std::get_if<ProbeComponent>(&scene_.nodes[n].components[c])) {
                 places_.push_back({n, c});
+                known_.push_back(*probe);
             }
         }
     }
-    histories_.resize(places_.size());
+}
+
+std::vector<int> ProbeObserver::rescan() {
+    const std::vector<ProbeComponent> before = std::move(known_);
+    std::vector<plan::ProbeHistory> histories = std::move(histories_);
+    findPlaces();
+    const std::vector<int> which = sameProbes(before, known_);
+    histories_.assign(places_.size(), {});
+    for (std::size_t i = 0; i < which.size(); ++i) {
+        if (which[i] < 0) {
+            continue;
+        }
+        const auto was = static_cast<std::size_t>(which[i]);
+        histories_[i] = std::move(histories[was]);
+        const lighting::Probe& then = before[was].probe;
+        const lighting::Probe& now = known_[i].probe;
+        if (then.position != now.position || then.node != now.node) {
+            histories_[i].requested = true;
+        }
+    }
+    return which;
 }
 
 const ProbeComponent& ProbeObserver::component(std::size_t index) const {
@@ -136,8 +210,16 @@ void ProbeObserver::executed(const plan::EffectPlan& plan) {
     }
 }
 
-void addProbes(Scene& scene, std::span<const lighting::Probe> probes,
-               std::span<const lighting::Cubemap> maps, core::Tally& warnings) {
+void setProbes(Scene& scene, std::span<const lighting::Probe> probes,
+               std::span<const ProbeMap> maps, core::Tally& warnings) {
+    while (!scene.nodes.empty() && isOwnNode(scene.nodes.back())) {
+        scene.nodes.pop_back();
+    }
+    for (Node& node : scene.nodes) {
+        std::erase_if(node.components, [](const Component& component) {
+            return std::holds_alternative<ProbeComponent>(component);
+        });
+    }
     for (std::size_t i = 0; i < probes.size(); ++i) {
         const lighting::Probe& probe = probes[i];
         auto node = scene.nodes.end();
@@ -152,11 +234,7 @@ void addProbes(Scene& scene, std::span<const lighting::Probe> probes,
             scene.nodes.push_back(Node{probe.name, -1, glm::mat4(1.0f), glm::mat4(1.0f), {}, {}});
             node = scene.nodes.end() - 1;
         }
-        std::shared_ptr<const lighting::Cubemap> map;
-        if (i < maps.size() && !maps[i].empty()) {
-            map = std::make_shared<const lighting::Cubemap>(maps[i]);
-        }
-        node->components.emplace_back(ProbeComponent{probe, std::move(map)});
+        node->components.emplace_back(ProbeComponent{probe, i < maps.size() ? maps[i] : nullptr});
     }
 }
 

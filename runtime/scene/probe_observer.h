@@ -19,6 +19,12 @@ class ProbeObserver {
 public:
     explicit ProbeObserver(const Scene& scene);
 
+    /// Finds the scene's probes anew. One that captures as one did before goes on from what is kept
+    /// of that: the same in all its values, else the one that stood at its place among them. Where
+    /// it stands elsewhere it is asked to capture again.
+    /// @return of each probe which it was, or -1
+    std::vector<int> rescan();
+
     [[nodiscard]] bool empty() const { return places_.empty(); }
     [[nodiscard]] std::size_t count() const { return places_.size(); }
     [[nodiscard]] const lighting::Probe& probe(std::size_t index) const;
@@ -52,6 +58,7 @@ private:
         bool operator==(const Box&) const = default;
     };
 
+    void findPlaces();
     [[nodiscard]] glm::mat4 worldFromProbe(std::size_t index) const;
     [[nodiscard]] plan::ProbeView view(std::size_t index) const;
     [[nodiscard]] std::vector<plan::Moved> moved(const plan::PlanInput& input);
@@ -59,16 +66,21 @@ private:
 
     const Scene& scene_;
     std::vector<Place> places_;
+    std::vector<ProbeComponent> known_; ///< by probe, as when the places were found
     std::vector<plan::ProbeHistory> histories_;
     std::vector<Box> boxes_;        ///< of the draws, when last described
     std::vector<glm::mat4> lights_; ///< the punctual lights' frames
     plan::LightState light_;
 };
 
-/// Gives the scene light probes: at the nodes that they name, else at nodes of their own. Those
-/// whose node the scene lacks are counted and left out.
-/// @param maps of the probes that hold a file's light, level 0; in their order, empty for others
-void addProbes(Scene& scene, std::span<const lighting::Probe> probes,
-               std::span<const lighting::Cubemap> maps, core::Tally& warnings);
+/// A file's light that a probe holds, level 0; null: the probe is captured.
+using ProbeMap = std::shared_ptr<const lighting::Cubemap>;
+
+/// Gives the scene light probes in place of those that it had: at the nodes that they name, else
+/// at nodes of their own behind the others. Those whose node the scene lacks are counted and left
+/// out. A renderer of the scene wants Renderer::probesChanged.
+/// @param maps in the probes' order; may be shorter
+void setProbes(Scene& scene, std::span<const lighting::Probe> probes,
+               std::span<const ProbeMap> maps, core::Tally& warnings);
 
 } // namespace lodestar::scene

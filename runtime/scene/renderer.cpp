@@ -245,6 +245,11 @@ void Renderer::materialsChanged() {
     state_->setWritten();
 }
 
+void Renderer::probesChanged() {
+    state_->probes.keep(state_->observer.rescan());
+    state_->setWritten();
+}
+
 const core::Tally& Renderer::lightWarnings() const {
     return state_->lights.warnings();
 }
@@ -279,22 +284,6 @@ core::Image Renderer::readProbe(std::size_t probe, int face, int level) const {
 
 const core::Tally& Renderer::probeWarnings() const {
     return state_->probeWarnings;
-}
-
-plan::PlanInput planInput(const Scene& scene, const View& view, const RenderSettings& settings,
-                          plan::EnvironmentView environment,
-                          const std::vector<lighting::DayLight>& lights) {
-    GpuLights described(lights, lighting::kRsrm, nullptr); // it bakes nothing
-    ShadowMaps shadows;
-    plan::PlanInput input =
-        planInput(scene, view, settings, beside(std::move(environment), described));
-    describeLights(scene, drawItems(scene), settings.hour, described, shadows, input);
-    input.faceBudget = settings.faceBudget;
-    input.probeBudgetMs = settings.probeBudgetMs;
-    if (ProbeObserver observer(scene); !observer.empty()) {
-        observer.describe({}, false, settings.lightThreshold, input);
-    }
-    return input;
 }
 
 /// What `auto` stands for; where nothing is foreseen yet draws are described again in the next

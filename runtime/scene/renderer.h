@@ -104,6 +104,10 @@ public:
     /// To be called where numbers, colours or estimators of the scene's materials have changed;
     /// their textures have not.
     void materialsChanged();
+    /// To be called where the scene's light probes have been set anew or their values have changed.
+    /// Those that capture as before keep what they hold; where they stand elsewhere they capture
+    /// again.
+    void probesChanged();
     /// Counts of lights and shadows beyond what a frame holds.
     [[nodiscard]] const core::Tally& lightWarnings() const;
 

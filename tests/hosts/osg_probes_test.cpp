@@ -34,8 +34,7 @@ protected:
         const auto document = io::loadDocument(light, warnings);
         scene::Scene room = scene::buildScene(*file, file->defaultScene);
         const lighting::Probe probes[] = {document->probes[0].probe};
-        const lighting::Cubemap maps[1];
-        scene::addProbes(room, probes, maps, warnings);
+        scene::setProbes(room, probes, {}, warnings);
         scene::updateTransforms(room);
         const auto renderer = rendererOf(room);
         renderer->setLights(*document::dayLights(*document, warnings));

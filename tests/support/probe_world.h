@@ -113,12 +113,12 @@ public:
         for (glm::vec4& texel : map.level(0)) {
             texel = glm::vec4(radiance, 1.0f);
         }
-        maps_.back() = map;
+        maps_.back() = std::make_shared<const lighting::Cubemap>(std::move(map));
     }
     [[nodiscard]] scene::Scene make() const {
         scene::Scene scene = scene::buildScene(file_);
         core::Tally warnings;
-        scene::addProbes(scene, probes_, maps_, warnings);
+        scene::setProbes(scene, probes_, maps_, warnings);
         scene::updateTransforms(scene);
         return scene;
     }
@@ -126,7 +126,7 @@ public:
 private:
     io::GltfFile file_;
     std::vector<lighting::Probe> probes_;
-    std::vector<lighting::Cubemap> maps_;
+    std::vector<scene::ProbeMap> maps_;
 };
 
 /// Renders worlds.

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include <glm/geometric.hpp>
+
+#include "ui/panels.h"
+#include "ui/theme.h"
+
+namespace lodestar::ui {
+namespace {
+
+/// Points nearer to the eye than this share of a clip-space unit are not drawn.
+constexpr float kNearest = 1e-3f;
+constexpr int kArcs = 48; ///< chords of a circle
+
+/// The picture as points are drawn over it.
+struct Picture {
+    glm::mat4 clipFromWorld{1.0f};
+    ImVec2 low, size;
+
+    [[nodiscard]] ImVec2 place(const glm::vec4& clip) const {
+        return {low.x + size.x * (0.5f + 0.5f * clip.x / clip.w),
+                low.y + size.y * (0.5f - 0.5f * clip.y / clip.w)};
+    }
+};
+
+/// A segment, cut where it passes the eye.
+void drawSegment(const Picture& picture, const glm::vec3& from, const glm::vec3& to, ImU32 color,
+                 float width) {
+    glm::vec4 a = picture.clipFromWorld * glm::vec4(from, 1.0f);
+    glm::vec4 b = picture.clipFromWorld * glm::vec4(to, 1.0f);
+    if (a.w < kNearest && b.w < kNearest) {
+        return;
+    }
+    const auto cut = [](const glm::vec4& out, const glm::vec4& in) {
+        return out + (in - out) * ((kNearest - out.w) / (in.w - out.w));
+    };
+    if (a.w < kNearest) {
+        a = cut(a, b);
+    } else if (b.w < kNearest) {
+        b = cut(b, a);
+    }
+    ImGui::GetWindowDrawList()->AddLine(picture.place(a), picture.place(b), color, width);
+}
+
+void drawVolume(const Picture& picture, const glm::mat4& worldFromProbe,
+                const lighting::ProbeVolume& volume, ImU32 color) {
+    const auto world = [&](const glm::vec3& unit) {
+        return glm::vec3(
+            worldFromProbe *
+            glm::vec4(glm::vec3(volume.center) + 0.5f * glm::vec3(volume.size) * unit, 1.0f));
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+        const int u = (axis + 1) % 3;
+        const int v = (axis + 2) % 3;
+        if (volume.shape == lighting::VolumeShape::Box) {
+            for (const glm::vec2 corner :
+                 {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(1, 1)}) {
+                glm::vec3 from(0.0f);
+                from[axis] = -1.0f;
+                from[u] = corner.x;
+                from[v] = corner.y;
+                glm::vec3 to = from;
+                to[axis] = 1.0f;
+                drawSegment(picture, world(from), world(to), color, 1.5f);
+            }
+            continue;
+        }
+        glm::vec3 before(0.0f);
+        before[u] = 1.0f;
+        for (int i = 1; i <= kArcs; ++i) {
+            const float angle = 2.0f * std::numbers::pi_v<float> * static_cast<float>(i) / kArcs;
+            glm::vec3 next(0.0f);
+            next[u] = std::cos(angle);
+            next[v] = std::sin(angle);
+            drawSegment(picture, world(before), world(next), color, 1.5f);
+            before = next;
+        }
+    }
+}
+
+/// The handle of an axis. @return metres along it by which it is dragged now
+float drawHandle(Studio& studio, const Picture& picture, const glm::vec3& origin,
+                 const glm::vec3& axis, const char* name, ImU32 color) {
+    const float em = ImGui::GetFontSize();
+    const glm::vec4 from = picture.clipFromWorld * glm::vec4(origin, 1.0f);
+    const glm::vec4 ahead = picture.clipFromWorld * glm::vec4(axis, 0.0f);
+    if (from.w < kNearest) {
+        return 0.0f;
+    }
+    // How far a metre along the axis goes in the picture, there.
+    const glm::vec2 ndc = (glm::vec2(ahead) - glm::vec2(from) / from.w * ahead.w) / from.w;
+    const glm::vec2 pixels = 0.5f * ndc * glm::vec2(picture.size.x, -picture.size.y);
+    const float length = glm::length(pixels);
+    if (!(length > 1e-6f)) {
+        return 0.0f; // it points at the eye
+    }
+    const ImVec2 start = picture.place(from);
+    const glm::vec2 reach = pixels / length * std::min(5.0f * em, 1e3f * length);
+    const ImVec2 tip{start.x + reach.x, start.y + reach.y};
+    const float side = 1.2f * em;
+    ImGui::SetCursorScreenPos({tip.x - 0.5f * side, tip.y - 0.5f * side});
+    ImGui::InvisibleButton(name, {side, side});
+    studio.mark(std::string("probe handle ") + name);
+    const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddLine(start, tip, color, lit ? 4.0f : 2.5f);
+    list.AddCircleFilled(tip, lit ? 0.45f * em : 0.35f * em, color);
+    if (!ImGui::IsItemActive()) {
+        return 0.0f;
+    }
+    const glm::vec2 moved(ImGui::GetIO().MouseDelta.x, ImGui::GetIO().MouseDelta.y);
+    return glm::dot(moved, pixels) / (length * length);
+}
+
+/// Handles along the axes of the frame that the probe's position is given in.
+void drawHandles(Studio& studio, const Picture& picture, model::Id id, std::size_t index) {
+    constexpr std::array<const char*, 3> kNames = {"x", "y", "z"};
+    constexpr std::array<ImU32, 3> kColors = {
+        IM_COL32(226, 94, 84, 255), IM_COL32(132, 196, 88, 255), IM_COL32(92, 148, 232, 255)};
+    const glm::mat4& frame = studio.around.probes[index].worldFromProbe;
+    lighting::Probe probe = studio.model.document().probes[index].probe;
+    bool moved = false;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float along = drawHandle(studio, picture, glm::vec3(frame[3]), glm::vec3(frame[axis]),
+                                       kNames[static_cast<std::size_t>(axis)],
+                                       kColors[static_cast<std::size_t>(axis)]);
+        if (along != 0.0f && std::isfinite(along)) {
+            probe.position[axis] += static_cast<double>(along);
+            moved = true;
+        }
+    }
+    if (moved) {
+        studio.run(model::SetProbe{id, probe});
+    }
+}
+
+} // namespace
+
+void drawProbeGizmo(Studio& studio, const ImVec2& low, const ImVec2& size) {
+    const std::vector<model::Id> chosen = studio.model.selection().probes;
+    if (chosen.empty()) {
+        return;
+    }
+    const Picture picture{studio.around.clipFromWorld, low, size};
+    const ImU32 influence = ImGui::GetColorU32(kAccent);
+    const ImU32 proxy = IM_COL32(150, 190, 220, 160);
+    ImGui::PushClipRect(low, {low.x + size.x, low.y + size.y}, true);
+    for (const model::Id id : chosen) {
+        const auto index = model::findProbe(studio.model.ids(), id);
+        if (!index || *index >= studio.around.probes.size() ||
+            !studio.around.probes[*index].shown) {
+            continue;
+        }
+        const lighting::Probe& probe = studio.model.document().probes[*index].probe;
+        const glm::mat4& frame = studio.around.probes[*index].worldFromProbe;
+        if (probe.proxy) {
+            drawVolume(picture, frame, *probe.proxy, proxy);
+        }
+        drawVolume(picture, frame, probe.influence, influence);
+        if (id == chosen.front()) {
+            drawHandles(studio, picture, id, *index);
+        }
+    }
+    ImGui::PopClipRect();
+}
+
+} // namespace lodestar::ui
