@@ -144,8 +144,8 @@ void Editor::moveCamera(const ui::CameraMove& move) {
     if (move.fly != glm::vec3(0.0f)) {
         scene::fly(*pose_, move.fly * scene::flySpeed(shown_.bounds, move.fast));
     }
-    if (move.frameAll) {
-        scene::frameAll(*pose_, shown_.bounds, aspect());
+    if (move.frameAll || move.frameSelection) {
+        scene::frameAll(*pose_, move.frameAll ? shown_.bounds : selectedBounds(), aspect());
     }
     stale();
 }
@@ -173,6 +173,9 @@ void Editor::answer(const ui::Wishes& wishes) {
         workspace_.say(done.error().message(), true);
     } else if (wishes.saveAs) {
         workspace_.say("saved " + file_.path().string());
+    }
+    if (wishes.select) {
+        select(*wishes.select, wishes.selectMore);
     }
     if (wishes.captureProbe) {
         const auto which = std::find(shownProbes_.begin(), shownProbes_.end(),

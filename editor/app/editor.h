@@ -92,6 +92,11 @@ private:
     void answer(const ui::Wishes& wishes);
     void moveCamera(const ui::CameraMove& move);
     void pick(const glm::ivec2& pixel);
+    /// Selects the material at a pixel of the picture, or none where there is nothing.
+    void select(const glm::ivec2& pixel, bool more);
+    /// World box about what is selected: a node and what is below it, light probes, what has the
+    /// materials; the whole scene where nothing is.
+    [[nodiscard]] scene::Bounds selectedBounds() const;
     void save();
     core::Result<void> drawPicture();
     [[nodiscard]] core::Result<void> buildPanels(int width, int height, float scale);

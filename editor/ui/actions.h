@@ -31,6 +31,7 @@ enum class Action {
     Distribute,
     Brush,
     Pick,
+    FrameSelection,
     FrameAll,
     ResetCamera,
     Brighter,

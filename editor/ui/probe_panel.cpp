@@ -14,6 +14,7 @@ namespace lodestar::ui {
 namespace {
 
 constexpr double kFar = 1e6;       ///< metres that a field reaches
+constexpr double kThinnest = 1e-3; ///< metres: a volume has an inside
 constexpr double kMostLight = 1e9; ///< of a tint or intensity
 constexpr int kWidestCapture = 16384;
 
@@ -94,8 +95,8 @@ bool volumeFields(Studio& studio, const char* name, lighting::ProbeVolume& volum
     bool changed = shape.has_value();
     changed = vectorField(studio, "center", volume.center, -kFar, kFar) || changed;
     if (volume.shape == lighting::VolumeShape::Box) {
-        changed = vectorField(studio, "size", volume.size, 0.0, kFar) || changed;
-    } else if (scalarField(studio, "diameter", volume.size.x, 0.02f, 0.0, kFar, "%.4g m")) {
+        changed = vectorField(studio, "size", volume.size, kThinnest, kFar) || changed;
+    } else if (scalarField(studio, "diameter", volume.size.x, 0.02f, kThinnest, kFar, "%.4g m")) {
         volume.size = glm::dvec3(volume.size.x);
         changed = true;
     }

@@ -88,7 +88,13 @@ void drawNodes(Studio& studio) {
             const NodeLine& node = studio.around.nodes[static_cast<std::size_t>(i)];
             ImGui::SetCursorPosX(ImGui::GetCursorPosX() +
                                  step * static_cast<float>(std::min(node.depth, 12)));
-            ImGui::TextUnformatted(node.name.c_str());
+            ImGui::PushID(i);
+            const ImVec2 room(ImGui::CalcTextSize(node.name.c_str()).x, 0.0f);
+            if (ImGui::Selectable(node.name.c_str(), studio.view.node == i, 0, room)) {
+                studio.view.node = studio.view.node == i ? -1 : i;
+            }
+            ImGui::PopID();
+            studio.mark("node " + std::to_string(i));
             if (!node.holds.empty()) {
                 ImGui::SameLine();
                 ImGui::TextColored(kDimText, "%s", node.holds.c_str());

@@ -78,6 +78,7 @@ struct ViewState {
     model::Snap snap{5.0, true, true, 0.0};
     bool snapping = false;
     bool help = false;
+    int node = -1;                  ///< of Surroundings::nodes, that is selected; -1: none
     std::string estimator = "tent"; ///< of the frame
 };
 
@@ -87,7 +88,7 @@ struct CameraMove {
     float dolly = 0.0f;
     glm::vec3 fly{0.0f}; ///< right, up, forward: -1, 0 or 1
     bool fast = false;
-    bool frameAll = false, reset = false;
+    bool frameAll = false, frameSelection = false, reset = false;
     bool operator==(const CameraMove&) const = default;
 };
 
@@ -96,6 +97,10 @@ struct Wishes {
     bool save = false, quit = false;
     std::optional<std::string> saveAs, openScene, openLighting;
     CameraMove camera;
+    /// A click on the picture: its pixel, from its top left, selects the material there, or with
+    /// Ctrl adds it to the selection.
+    std::optional<glm::ivec2> select;
+    bool selectMore = false;
     std::optional<std::size_t> captureProbe; ///< the document's, to be captured anew
     std::optional<glm::ivec2> pick;          ///< a pixel of the viewport, from its top left
     /// The viewport in the framebuffer: left, top, width, height in pixels.

@@ -32,6 +32,25 @@ void moveCamera(CameraMove& move) {
     }
 }
 
+/// A press and release at one place, none of it a drag, picks a radiance or selects what is there.
+void answerClick(Studio& studio, const ImVec2& low) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const float most = io.MouseDragThreshold * io.MouseDragThreshold;
+    if (!ImGui::IsItemDeactivated() || !io.MouseReleased[0] ||
+        io.MouseDragMaxDistanceSqr[0] >= most) {
+        return;
+    }
+    const glm::ivec2 pixel(static_cast<int>(io.MousePos.x - low.x),
+                           static_cast<int>(io.MousePos.y - low.y));
+    if (studio.view.picking) {
+        studio.wishes.pick = pixel;
+        studio.view.picking = false;
+    } else {
+        studio.wishes.select = pixel;
+        studio.wishes.selectMore = io.KeyCtrl;
+    }
+}
+
 } // namespace
 
 void drawViewport(Studio& studio) {
@@ -53,13 +72,10 @@ void drawViewport(Studio& studio) {
     if (studio.view.picking && ImGui::IsItemHovered()) {
         ImGui::SetTooltip("Click gives the selected stops this radiance.");
     }
-    if (studio.view.picking && ImGui::IsItemActivated()) {
-        studio.wishes.pick = glm::ivec2(static_cast<int>(ImGui::GetIO().MousePos.x - low.x),
-                                        static_cast<int>(ImGui::GetIO().MousePos.y - low.y));
-        studio.view.picking = false;
-    } else if (ImGui::IsItemActive()) {
+    if (ImGui::IsItemActive()) {
         moveCamera(studio.wishes.camera);
     }
+    answerClick(studio, low);
     if (studio.around.picture != 0) {
         // Row 0 of a drawn picture is at the bottom.
         ImGui::GetWindowDrawList()->AddImage(

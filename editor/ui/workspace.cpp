@@ -248,6 +248,7 @@ void Workspace::drawHelp() {
         for (const Binding& binding : bindings()) {
             row(shortcutText(binding), binding.label);
         }
+        row("click, Ctrl + click", "on the picture: select a material, or one more");
         row("left drag", "orbit; on the strip: add or move stops, off it: delete them");
         row("middle drag, Shift + left drag", "pan");
         row("right drag, with W A S D Q E", "look around and fly; Shift is faster");
@@ -303,6 +304,9 @@ void Workspace::perform(Studio& studio, const Binding& binding) {
         break;
     case Action::Redo:
         (void)studio.model.redo();
+        break;
+    case Action::FrameSelection:
+        studio.wishes.camera.frameSelection = true;
         break;
     case Action::FrameAll:
         studio.wishes.camera.frameAll = true;
