@@ -171,6 +171,7 @@ export UBSAN_OPTIONS=${UBSAN_OPTIONS:-halt_on_error=1:print_stacktrace=1}
 if [ $mode = long ]; then
     export LODESTAR_FUZZ_FACTOR=10 RC_PARAMS="max_success=1000"
     build build-asan all || stop "the sanitizer build failed"
+    LODESTAR_MONKEY_FRAMES=10000000 count "editor, 10 million frames" build -R '^editor_monkey_test$'
     count "editor, killed 400 times" build -R '^editor_kill_test$' --timeout 1800
     LODESTAR_FUZZ_FACTOR=1 count "sanitized editor" build-asan -L '^editor$' --timeout 1800
     count "sanitized unit" build-asan -L '^unit$' --timeout 1800

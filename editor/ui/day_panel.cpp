@@ -74,17 +74,17 @@ std::vector<KeyColumn> columnsOf(const document::Light& light) {
     return columns;
 }
 
-void drawRamp(const Studio& studio, const document::Light& light, ImDrawList* list,
-              const ImVec2& low, const ImVec2& size) {
+/// Colours of the strip, column by column; empty where the light has no key.
+std::vector<ImU32> colorsOf(const document::Light& light, bool falseColor, double exposure) {
     const std::vector<KeyColumn> keys = columnsOf(light);
+    std::vector<ImU32> colors;
     if (keys.empty()) {
-        return;
+        return colors;
     }
     std::vector<double> hours;
     for (const KeyColumn& key : keys) {
         hours.push_back(key.hour);
     }
-    const double exposure = std::exp2(studio.view.exposure);
     for (int column = 0; column < kColumns; ++column) {
         const double hour = 24.0 * (column + 0.5) / kColumns;
         const lighting::KeyBlend blend = lighting::keysAt(hours, hour);
@@ -92,17 +92,11 @@ void drawRamp(const Studio& studio, const document::Light& light, ImDrawList* li
         for (std::size_t row = 0; row < kRows; ++row) {
             const glm::dvec3 radiance = up * glm::mix(keys[blend.from].radiance[row],
                                                       keys[blend.to].radiance[row], blend.t);
-            const auto edge = [](float from, float length, int i, int count) {
-                return from + length * static_cast<float>(i) / static_cast<float>(count);
-            };
-            list->AddRectFilled({edge(low.x, size.x, column, kColumns),
-                                 edge(low.y, size.y, static_cast<int>(row), kRows)},
-                                {edge(low.x, size.x, column + 1, kColumns),
-                                 edge(low.y, size.y, static_cast<int>(row) + 1, kRows)},
-                                studio.view.falseColor ? falseShownColor(radiance, exposure)
-                                                       : shownColor(radiance, exposure));
+            colors.push_back(falseColor ? falseShownColor(radiance, exposure)
+                                        : shownColor(radiance, exposure));
         }
     }
+    return colors;
 }
 
 std::string clockText(double hour) {
@@ -160,6 +154,28 @@ void drawTicks(ImDrawList* list, const ImVec2& low, float width, float scale) {
 }
 
 } // namespace
+
+void DayPanel::drawRamp(const Studio& studio, const Frame& frame) {
+    const document::Light& light = studio.model.document().lights[frame.light];
+    const bool same = light == drawn_.light && studio.view.falseColor == drawn_.falseColor &&
+                      studio.view.exposure == drawn_.exposure;
+    if (!same) {
+        drawn_ = {light, studio.view.falseColor, studio.view.exposure,
+                  colorsOf(light, studio.view.falseColor, std::exp2(studio.view.exposure))};
+    }
+    const auto edge = [](float from, float length, std::size_t i, int count) {
+        return from + length * static_cast<float>(i) / static_cast<float>(count);
+    };
+    for (std::size_t i = 0; i < drawn_.colors.size(); ++i) {
+        const std::size_t column = i / kRows;
+        const std::size_t row = i % kRows;
+        frame.list->AddRectFilled({edge(frame.low.x, frame.width, column, kColumns),
+                                   edge(frame.low.y, frame.rampHeight, row, kRows)},
+                                  {edge(frame.low.x, frame.width, column + 1, kColumns),
+                                   edge(frame.low.y, frame.rampHeight, row + 1, kRows)},
+                                  drawn_.colors[i]);
+    }
+}
 
 void DayPanel::drawKeys(Studio& studio, const Frame& frame) {
     const document::Light& light = studio.model.document().lights[frame.light];
@@ -246,8 +262,7 @@ void DayPanel::draw(Studio& studio) {
         "##day", {frame.width, frame.rampHeight + (kHandleHeight + kTickHeight) * frame.scale});
     pointer(studio, frame);
     frame.chosen = studio.chosenKey();
-    const document::Light& shown = studio.model.document().lights[frame.light];
-    drawRamp(studio, shown, frame.list, frame.low, {frame.width, frame.rampHeight});
+    drawRamp(studio, frame);
     studio.mark("day", frame.low, {frame.low.x + frame.width, frame.bottom()});
     drawTicks(frame.list, {frame.low.x, frame.bottom() + kHandleHeight * frame.scale}, frame.width,
               frame.scale);

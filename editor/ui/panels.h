@@ -24,8 +24,17 @@ public:
 
 private:
     struct Frame;
+    /// The strip's colours, and what they are of: most frames show the same ones.
+    struct Drawn {
+        document::Light light;
+        bool falseColor = false;
+        double exposure = 0.0;
+        std::vector<ImU32> colors;
+    };
+    void drawRamp(const Studio& studio, const Frame& frame);
     void drawKeys(Studio& studio, const Frame& frame);
     void pointer(Studio& studio, const Frame& frame);
+    Drawn drawn_;
     model::Id grabbed_ = model::Id::None;
     double draggedTo_ = -1.0; ///< hour; -1: nowhere yet
     bool scrubs_ = false;

@@ -6,6 +6,7 @@
 
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include "ui/assertions.h"
 #include "ui/theme.h"
@@ -16,6 +17,16 @@ namespace {
 /// Frames until a layout stands still after an input: one that shows it, one in which widgets that
 /// were measured in it take their places, one in which what follows from those does.
 constexpr int kFramesToSettle = 3;
+
+/// Where Escape goes down Dear ImGui 1.86 asks the last popup for its window, and one that was
+/// opened in place of another has none until the next frame (BeginMenu): Escape closes it here.
+void closeUnseenPopups(const ImGuiIO& io) {
+    const ImVector<ImGuiPopupData>& open = ImGui::GetCurrentContext()->OpenPopupStack;
+    while (io.KeysDown[static_cast<int>(Key::Escape)] && !open.empty() &&
+           open.back().Window == nullptr) {
+        ImGui::ClosePopupToLevel(open.Size - 1, false);
+    }
+}
 
 } // namespace
 
@@ -94,6 +105,7 @@ void Session::frame(int width, int height, float scale, double seconds,
         io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
         io.DeltaTime = static_cast<float>(std::clamp(seconds, 1e-4, 1.0));
         queue_.feed(io);
+        closeUnseenPopups(io);
         if (drawing_ == Drawing::OpenGl) {
             ImGui_ImplOpenGL3_NewFrame();
         }

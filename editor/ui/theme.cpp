@@ -2,6 +2,7 @@
 #include "ui/theme.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "lodestar/display.glsl"
@@ -111,9 +112,18 @@ ImU32 shownColor(const glm::dvec3& radiance, double exposure) {
 ImU32 falseShownColor(const glm::dvec3& radiance, double exposure) {
     constexpr double kStops = 16.0;
     const double mean = (radiance.r + radiance.g + radiance.b) / 3.0 * exposure;
-    const double x = mean > 0.0 ? std::log2(mean) / kStops + 0.5 : 0.0;
-    const glm::vec3 color = falseColor(x);
-    return ImGui::ColorConvertFloat4ToU32({color.r, color.g, color.b, 1.0f});
+    const double x = mean > 0.0 ? std::clamp(std::log2(mean) / kStops + 0.5, 0.0, 1.0) : 0.0;
+    // Finer than 8 bits can show; a strip asks for thousands.
+    constexpr std::size_t kLast = 2047;
+    static const std::array<ImU32, kLast + 1> table = [] {
+        std::array<ImU32, kLast + 1> made{};
+        for (std::size_t i = 0; i <= kLast; ++i) {
+            const glm::vec3 color = falseColor(static_cast<double>(i) / kLast);
+            made[i] = ImGui::ColorConvertFloat4ToU32({color.r, color.g, color.b, 1.0f});
+        }
+        return made;
+    }();
+    return table[static_cast<std::size_t>(std::lround(x * kLast))];
 }
 
 } // namespace lodestar::ui
