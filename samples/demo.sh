@@ -35,7 +35,7 @@ export LIBGL_ALWAYS_SOFTWARE=${LIBGL_ALWAYS_SOFTWARE:-1}
 out=out/demo
 assets=$out/assets
 parts=$out/parts
-total=18
+total=19
 step=0
 started=$SECONDS
 
@@ -75,7 +75,7 @@ build() {
     if [ ! -f build/CMakeCache.txt ]; then
         configure_build -DLODESTAR_BUILD_TESTS=OFF || stop "the build cannot be configured"
     fi
-    if ! cmake --build build --target lodestar lodestar-make-assets lodestar-compose lodestar-day >"$log" 2>&1; then
+    if ! cmake --build build --target lodestar lodestar-make-assets lodestar-compose lodestar-day lodestar-panels >"$log" 2>&1; then
         grep -E 'error|FAILED' "$log" | head -n 20 >&2
         rm -f "$log"
         stop "the build failed"
@@ -253,8 +253,12 @@ sheet walk --title "A walk" --note "From 17:30 to 19:30; the lift moves, and nev
     --columns "0 s|6 s|10 s|16 s|20 s" --row "" "$parts/walk-0000.png" "$parts/walk-0030.png" "$parts/walk-0050.png" \
     "$parts/walk-0080.png" "$parts/walk-0099.png"
 
+next "the editor's panels in an engine's own frame"
+build/lodestar-panels "$assets/figure2.gltf" --lighting samples/skies/golden_hour.lodestar.json --hour 18 --frames 4 -o "$out/panels.png" ||
+    stop "the panels could not be drawn"
+
 echo "done in $((SECONDS - started)) s; look at:"
-for picture in figure1 figure2 figure3 ashikhmin seams estimators gaussians terrace table day hours golden_hour lift dusk walk; do
+for picture in figure1 figure2 figure3 ashikhmin seams estimators gaussians terrace table day hours golden_hour lift dusk walk panels; do
     echo "    $out/$picture.png"
 done
 

@@ -44,6 +44,16 @@ void Studio::say(std::string text, bool isError) {
     }
 }
 
+bool Studio::down(Key key) const {
+    return ImGui::IsKeyDown(around.placeOfKey != nullptr ? around.placeOfKey(key)
+                                                         : static_cast<int>(key));
+}
+
+bool Studio::pressed(Key key, bool repeats) const {
+    return ImGui::IsKeyPressed(
+        around.placeOfKey != nullptr ? around.placeOfKey(key) : static_cast<int>(key), repeats);
+}
+
 void Studio::mark(const std::string& name) {
     mark(name, ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
 }

@@ -21,6 +21,7 @@
 #include "model/model.h"
 #include "model/ramp.h"
 #include "plan/effect_plan.h"
+#include "ui/input.h"
 
 namespace lodestar::ui {
 
@@ -63,6 +64,9 @@ struct Surroundings {
     std::shared_ptr<const plan::EffectPlan> plan;
     std::map<std::string, double> timesMs; ///< of the last frame, by step
     gl::WorkCounters counters;             ///< of the last frame
+    /// Where ImGuiIO::KeysDown has a key, -1 where nowhere: of the back-end of a host's context. A
+    /// Session has each at its own number.
+    int (*placeOfKey)(Key) = nullptr;
 };
 
 /// How the picture is looked at: not part of the document.
@@ -139,6 +143,10 @@ public:
     /// The same as a step of its own.
     std::optional<model::Outcome> runOnce(const model::Command& command);
     void say(std::string text, bool isError = false);
+
+    [[nodiscard]] bool down(Key key) const;
+    /// In this frame. @param repeats again and again while it is held
+    [[nodiscard]] bool pressed(Key key, bool repeats = false) const;
 
     /// Names the last widget, or a rectangle.
     void mark(const std::string& name);

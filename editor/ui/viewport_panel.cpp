@@ -9,17 +9,12 @@
 namespace lodestar::ui {
 namespace {
 
-bool held(Key key) {
-    return ImGui::IsKeyDown(static_cast<int>(key));
-}
-
-float along(Key positive, Key negative) {
-    return (held(positive) ? 1.0f : 0.0f) - (held(negative) ? 1.0f : 0.0f);
-}
-
 /// Left orbits, middle or shift + left pans, right looks around, and W A S D Q E fly meanwhile.
-void moveCamera(CameraMove& move) {
+void moveCamera(const Studio& studio, CameraMove& move) {
     const ImGuiIO& io = ImGui::GetIO();
+    const auto along = [&](Key positive, Key negative) {
+        return (studio.down(positive) ? 1.0f : 0.0f) - (studio.down(negative) ? 1.0f : 0.0f);
+    };
     const glm::vec2 delta(io.MouseDelta.x, io.MouseDelta.y);
     if (io.MouseDown[2] || (io.MouseDown[0] && io.KeyShift)) {
         move.pan = delta;
@@ -73,7 +68,7 @@ void drawViewport(Studio& studio) {
         ImGui::SetTooltip("Click gives the selected stops this radiance.");
     }
     if (ImGui::IsItemActive()) {
-        moveCamera(studio.wishes.camera);
+        moveCamera(studio, studio.wishes.camera);
     }
     answerClick(studio, low);
     if (studio.around.picture != 0) {

@@ -30,7 +30,45 @@ bool beginPanel(const char* name, float left, float top, float right, float bott
 
 } // namespace
 
+void Panels::scene() const {
+    drawScenePanel(studio_);
+}
+
+void Panels::light() const {
+    drawLightPanel(studio_);
+    workspace_.gradient_.draw(studio_, studio_.chosenKey());
+}
+
+void Panels::materials() const {
+    drawMaterialPanel(studio_);
+}
+
+void Panels::day() const {
+    workspace_.day_.draw(studio_);
+}
+
+void Panels::report() const {
+    drawReportPanel(studio_);
+}
+
+void Panels::viewport() const {
+    drawViewport(studio_);
+}
+
+void Panels::answerKeys() const {
+    workspace_.answerKeys(studio_);
+}
+
 Wishes Workspace::draw(model::Model& model, const Surroundings& surroundings) {
+    return draw(model, surroundings, [this](const Panels& panels) {
+        panels.answerKeys();
+        drawMenus(panels.studio_);
+        drawPanels(panels.studio_, ImGui::GetFrameHeight());
+    });
+}
+
+Wishes Workspace::draw(model::Model& model, const Surroundings& surroundings,
+                       const std::function<void(const Panels&)>& contents) {
     Studio studio(model, surroundings, view_);
     studio.log = std::move(log_);
     if (!ImGui::IsAnyItemActive()) {
@@ -45,9 +83,7 @@ Wishes Workspace::draw(model::Model& model, const Surroundings& surroundings) {
         holder_ = studio.holder_;
     };
     try {
-        answerKeys(studio);
-        drawMenus(studio);
-        drawPanels(studio, ImGui::GetFrameHeight());
+        contents(Panels(*this, studio));
         drawPrompts(studio);
         drawQuestion(studio);
         drawHelp();
@@ -182,8 +218,7 @@ void Workspace::drawPrompts(Studio& studio) {
     done = ImGui::Button("OK") || done;
     studio.mark("OK");
     ImGui::SameLine();
-    const bool cancelled =
-        ImGui::Button("Cancel") || ImGui::IsKeyPressed(static_cast<int>(Key::Escape));
+    const bool cancelled = ImGui::Button("Cancel") || studio.pressed(Key::Escape);
     if (done && !path_.empty()) {
         auto& wish = prompt_ == Prompt::SaveAs      ? studio.wishes.saveAs
                      : prompt_ == Prompt::OpenScene ? studio.wishes.openScene
@@ -217,7 +252,7 @@ void Workspace::drawQuestion(Studio& studio) {
     const bool discard = ImGui::Button("Quit without saving");
     studio.mark("Quit without saving");
     ImGui::SameLine();
-    const bool stay = ImGui::Button("Stay") || ImGui::IsKeyPressed(static_cast<int>(Key::Escape));
+    const bool stay = ImGui::Button("Stay") || studio.pressed(Key::Escape);
     studio.mark("Stay");
     studio.wishes.save = studio.wishes.save || save;
     studio.wishes.quit = save || discard;
@@ -269,7 +304,7 @@ void Workspace::answerKeys(Studio& studio) {
     for (const Binding& binding : bindings()) {
         const bool plus = binding.key == Key::Plus; // on a US keyboard it is a shifted key
         if (binding.control == io.KeyCtrl && (binding.shift == io.KeyShift || plus) &&
-            ImGui::IsKeyPressed(static_cast<int>(binding.key), binding.repeats)) {
+            studio.pressed(binding.key, binding.repeats)) {
             perform(studio, binding);
         }
     }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// All of the editor's panels in a layout that fills the display: draws into the current ImGui
-// frame, edits the model, and says what else it wants as values.
+// All of the editor's panels, in a layout that fills the display or one by one in a host's own
+// windows: draws into the current ImGui frame, edits the model, and says what else it wants as
+// values.
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -14,12 +16,38 @@
 namespace lodestar::ui {
 
 struct Binding;
+class Workspace;
+
+/// The panels of one frame, for whoever puts each into a window of its own: each draws into the
+/// ImGui window that is begun, once a frame at most.
+class Panels {
+public:
+    void scene() const;     ///< nodes, materials, lights
+    void light() const;     ///< the chosen light: its axis or path, and its key's gradient
+    void materials() const; ///< the chosen materials
+    void day() const;       ///< 24 hours of the chosen light
+    void report() const;    ///< the plan, the times, the log
+    void viewport() const;  ///< the picture, all of the room that is left
+    /// Answers the keys of `bindings()`: where the host's own do not hold.
+    void answerKeys() const;
+
+private:
+    friend class Workspace;
+    Panels(Workspace& workspace, Studio& studio) : workspace_(workspace), studio_(studio) {}
+    Workspace& workspace_;
+    Studio& studio_;
+};
 
 class Workspace {
 public:
-    /// One frame. @pre an ImGui frame has begun; the model's selection may change too
+    /// One frame of all panels over the whole display, with its menus. @pre an ImGui frame has
+    /// begun; the model's selection may change too
     /// @return what the frame asks for
     Wishes draw(model::Model& model, const Surroundings& surroundings);
+    /// One frame of what `contents` draws of the panels, in the host's windows. What the panels ask
+    /// for a path or an answer is asked over all of them.
+    Wishes draw(model::Model& model, const Surroundings& surroundings,
+                const std::function<void(const Panels&)>& contents);
 
     [[nodiscard]] ViewState& view() { return view_; }
     [[nodiscard]] const ViewState& view() const { return view_; }
@@ -34,6 +62,7 @@ public:
     [[nodiscard]] const std::deque<LogLine>& log() const { return log_; }
 
 private:
+    friend class Panels;
     void drawMenus(Studio& studio);
     void drawPanels(Studio& studio, float top);
     void drawPrompts(Studio& studio);

@@ -59,6 +59,21 @@ core::Result<LitContext> LitContext::read(std::string_view text, const std::stri
     return result;
 }
 
+core::Result<void> LitContext::relight(std::string_view text) {
+    LodestarDocument read = 0;
+    if (api_.document_load(get(), text.data(), text.size(), &read) != LODESTAR_OK) {
+        return refusal();
+    }
+    if (api_.document_apply(get(), read) != LODESTAR_OK) {
+        core::Error why = refusal();
+        api_.document_destroy(get(), read);
+        return why;
+    }
+    api_.document_destroy(get(), document_);
+    document_ = read;
+    return {};
+}
+
 core::Result<LodestarEnvironment>
 LitContext::loaded(const std::string& text, const std::string& beside, double rotation, double ev) {
     const auto source = io::environmentSource(text, beside);

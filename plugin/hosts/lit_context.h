@@ -33,6 +33,11 @@ public:
     [[nodiscard]] static core::Result<LitContext>
     read(std::string_view text, const std::string& beside, const Frame& frame = {});
 
+    /// Lights of another text in place of the former ones: what an editor has just changed. The
+    /// environment and the probes stay.
+    /// @errors InputRefused naming the JSON pointer; all is as it was
+    [[nodiscard]] core::Result<void> relight(std::string_view text);
+
     [[nodiscard]] const LodestarApi& api() const { return api_; }
     [[nodiscard]] LodestarContext* get() const { return context_.get(); }
     [[nodiscard]] LodestarDocument document() const { return document_; }

@@ -257,12 +257,16 @@ void DeferredEngine::drawLighting() const {
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-std::vector<std::uint8_t> DeferredEngine::draw(const glm::mat4& clipFromWorld) {
+void DeferredEngine::draw(const glm::mat4& clipFromWorld) const {
     glViewport(0, 0, width_, height_);
     drawGeometry(clipFromWorld);
     drawLighting();
+}
+
+std::vector<std::uint8_t> DeferredEngine::read() const {
     std::vector<std::uint8_t> picture(4 * static_cast<std::size_t>(width_) *
                                       static_cast<std::size_t>(height_));
+    glBindFramebuffer(GL_FRAMEBUFFER, lightingTarget_);
     glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, picture.data());
     return picture;
 }

@@ -40,8 +40,12 @@ public:
     [[nodiscard]] std::string setLighting(const std::string& text);
     /// For its uniforms; 0 before setLighting.
     [[nodiscard]] GLuint lightingProgram() const { return lighting_; }
+    /// Draws the picture; leaves its framebuffer bound.
+    void draw(const glm::mat4& clipFromWorld) const;
+    /// The picture as a texture, bottom row first.
+    [[nodiscard]] GLuint picture() const { return picture_; }
     /// The picture, RGBA bytes, bottom row first.
-    [[nodiscard]] std::vector<std::uint8_t> draw(const glm::mat4& clipFromWorld);
+    [[nodiscard]] std::vector<std::uint8_t> read() const;
 
 private:
     struct Item {

@@ -23,7 +23,7 @@ editor/ui: editor/model runtime/plan runtime/gl
 editor/app: runtime/scene editor/ui runtime/platform
 plugin: runtime/document runtime/plan runtime/gl shaders/plugin
 plugin/hosts: plugin runtime/io
-samples: runtime/scene runtime/platform plugin plugin/hosts
+samples: runtime/scene runtime/platform plugin plugin/hosts editor/ui
 tests: editor/app runtime/scene runtime/platform plugin samples
 '
 # Libraries by other people: the first word is a pattern of the angle include, then the folders that
@@ -37,8 +37,8 @@ third_party='
 ^tiny_gltf runtime/io tests
 ^nlohmann/ runtime/io runtime/document editor/app editor/model samples
 ^CLI/ editor/app samples
-^GLFW/ runtime/platform
-^imgui editor/ui editor/app
+^GLFW/ runtime/platform samples
+^imgui editor/ui editor/app samples
 ^(gtest|gmock|rapidcheck|benchmark)
 '
 
