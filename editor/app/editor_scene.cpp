@@ -99,23 +99,21 @@ ui::MaterialLine lineOf(const io::GltfMaterial& material, std::size_t index) {
 
 core::Result<void> Editor::openLightingFile(const std::filesystem::path& path) {
     if (path.empty()) {
-        model_ = model::Model(firstDocument());
+        model_.reset(firstDocument());
         workspace_.view().hour = kFirstHour;
         everSynced_ = false;
         return {};
     }
     core::Tally warnings;
-    model::Model opened;
-    auto file = model::DocumentFile::open(path, opened, warnings);
+    const bool begins = !std::filesystem::exists(path);
+    auto file = model::DocumentFile::open(path, model_, warnings, firstDocument());
     if (!file) {
         return file.error();
     }
     warn(warnings, path.string());
-    if (!std::filesystem::exists(path)) {
-        opened = model::Model(firstDocument());
+    if (begins) {
         workspace_.view().hour = kFirstHour;
     }
-    model_ = std::move(opened);
     file_ = std::move(*file);
     if (const auto left = file_.recovery()) {
         if (auto recovered = file_.recover(model_, *left); !recovered) {

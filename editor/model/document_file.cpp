@@ -82,14 +82,14 @@ DocumentFile::Stamp DocumentFile::stampOf(const fs::path& path) {
 }
 
 core::Result<DocumentFile> DocumentFile::open(const fs::path& path, Model& model,
-                                              core::Tally& warnings) {
+                                              core::Tally& warnings, document::Document first) {
     DocumentFile file;
     file.path_ = path;
     removeLeftovers(path);
     removeLeftovers(autosavePath(path));
     file.stamp_ = stampOf(path); // before the reading, so that what is written between is noticed
     if (!file.stamp_.exists) {
-        model.reset({});
+        model.reset(std::move(first));
         file.noteKept(model);
         return file;
     }

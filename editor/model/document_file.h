@@ -36,12 +36,14 @@ public:
     /// A document without a file yet.
     DocumentFile() = default;
 
-    /// Reads a document. A file that is not there is an empty document, to be saved there.
-    /// Temporaries of programs that died while they wrote it are taken away.
+    /// Reads a document. Temporaries of programs that died while they wrote it are taken away.
     /// @param model is reset to the document
+    /// @param first what stands for a file that is not there, to be saved there: where editing
+    /// starts, neither a step nor unsaved
     /// @errors InputRefused as io::loadDocument; the model stays
     [[nodiscard]] static core::Result<DocumentFile> open(const std::filesystem::path& path,
-                                                         Model& model, core::Tally& warnings);
+                                                         Model& model, core::Tally& warnings,
+                                                         document::Document first = {});
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 

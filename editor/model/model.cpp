@@ -65,6 +65,9 @@ core::Result<Outcome> Model::execute(const Command& command, MergeToken token) {
     if (!created) {
         return created.error();
     }
+    if (replaces && next.document == state_.document && next.ids == state_.ids) {
+        return Outcome{}; // a drag held still
+    }
     Change change = difference(base, next);
     if (replaces) {
         apply(last->change, Direction::Back);

@@ -39,8 +39,8 @@ public:
     Model() : Model(document::Document{}) {}
     explicit Model(document::Document document);
 
-    /// Another document, without steps and not dirty. Names, tokens and revisions go on, so that
-    /// none means what it did before.
+    /// Another document as the starting point, whether or not it is saved anywhere: without steps
+    /// and not dirty. Names, tokens and revisions go on, so that none means what it did before.
     void reset(document::Document document);
 
     [[nodiscard]] const document::Document& document() const { return state_.document; }
@@ -60,7 +60,7 @@ public:
     /// step before, it joins that step, and where the step's last command was of the same type it
     /// takes that one's place: it starts from the document as that one found it. So a drag gives
     /// each command from the drag's start, and a field of text its whole value; a token belongs to
-    /// one gesture or field.
+    /// one gesture or field. A drag held still changes nothing, and no revision grows.
     /// @errors InputRefused with one sentence; the document is as it was
     [[nodiscard]] core::Result<Outcome> execute(const Command& command, MergeToken token = 0);
     /// A token that none had.

@@ -104,6 +104,27 @@ TEST_F(DocumentFileTest, AFileThatIsNotThereIsAnEmptyDocument) {
     EXPECT_TRUE(fs::exists(path_));
 }
 
+TEST_F(DocumentFileTest, WhatEditingStartsFromIsNoStepAndNotUnsaved) {
+    const fs::path path = folder_.path() / "new.lodestar.json";
+    Model model;
+    core::Tally warnings;
+    auto file = DocumentFile::open(path, model, warnings, documentOf(kDocument));
+    ASSERT_TRUE(file);
+    const std::string first = textOf(model);
+    EXPECT_EQ(first, textOf(sampleModel()));
+    EXPECT_FALSE(model.dirty());
+    EXPECT_EQ(model.undoCount(), 0U);
+    const auto written = file->autosave(model, 1000.0);
+    EXPECT_TRUE(written && !*written);
+    did(model, RemoveEnvironment{});
+    EXPECT_TRUE(model.undo());
+    EXPECT_EQ(textOf(model), first);
+    ASSERT_TRUE(file->save(model));
+    // One that is there stands for itself.
+    ASSERT_TRUE(DocumentFile::open(path, model, warnings, {}));
+    EXPECT_EQ(textOf(model), first);
+}
+
 TEST_F(DocumentFileTest, ABrokenFileLeavesTheModel) {
     const std::string text = textOf(model_);
     write(path_, "{\"lodestar\": 1, \"lights\": 3}");

@@ -69,6 +69,36 @@ TEST(Undo, ADragIsOneStepThatStartsWhereItBegan) {
     EXPECT_EQ(textOf(model), start);
 }
 
+TEST(Undo, ADragHeldStillRaisesNoRevision) {
+    Model model = sampleModel();
+    const std::string start = textOf(model);
+    const MergeToken drag = model.newToken();
+    const Id light = model.ids().lights[0].id;
+    const auto held = [&](const Command& command) {
+        did(model, command, drag);
+        const Revisions before = model.revisions();
+        const Identities names = model.ids();
+        const std::uint64_t of = model.revisionOf(light);
+        const std::string text = textOf(model);
+        const auto again = model.execute(command, drag);
+        ASSERT_TRUE(again);
+        EXPECT_FALSE(again->changed);
+        EXPECT_TRUE(again->created.empty());
+        EXPECT_EQ(model.revisions().document, before.document);
+        EXPECT_EQ(model.revisions().lights, before.lights);
+        EXPECT_EQ(model.revisionOf(light), of);
+        EXPECT_EQ(model.ids(), names);
+        EXPECT_EQ(textOf(model), text);
+        EXPECT_EQ(model.undoCount(), 1U);
+    };
+    held(MoveStops{{{stopId(model, 1), 30.0}}});
+    held(MoveStops{{{stopId(model, 1), 31.0}}}); // the drag goes on
+    held(CopyKey{keyId(model), 9.0});            // a part that is added again is the same one
+    held(BrushStroke{keyId(model), {}, {10.0, 40.0}});
+    EXPECT_TRUE(model.undo());
+    EXPECT_EQ(textOf(model), start);
+}
+
 TEST(Undo, DifferentCommandsOfOneGestureAreOneStepInTheirOrder) {
     Model model = sampleModel();
     const std::string start = textOf(model);
