@@ -67,6 +67,8 @@ void Session::start() {
     }
     if (drawing_ == Drawing::OpenGl) {
         ImGui_ImplOpenGL3_Init("#version 330 core");
+    } else { // as there: lists of more than 65536 vertices
+        io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
     }
     scale_ = 0.0f;
     framesWanted_ = kFramesToSettle;
@@ -110,12 +112,20 @@ void Session::frame(int width, int height, float scale, double seconds,
             ImGui_ImplOpenGL3_NewFrame();
         }
         ImGui::NewFrame();
+        if (io.MouseClicked[0]) {
+            // An arrow and a double click on where it leads, in one frame: a field would be
+            // activated for the arrow, which hides the pointer from it, and assert that it is not.
+            ImGui::GetCurrentContext()->NavJustMovedToId = 0;
+        }
         contents();
         ImGui::Render();
     });
     whole_ = failure_.empty();
     if (!whole_) {
-        // What the old context holds of the frame cannot be told: it is left as it is.
+        // What the old context holds of the frame cannot be told: it is left as it is, but for
+        // the letters, which are most of it.
+        ImGui::GetIO().Fonts->Locked = false;
+        ImGui::GetIO().Fonts->ClearTexData();
         if (drawing_ == Drawing::OpenGl) {
             ImGui_ImplOpenGL3_Shutdown();
         }

@@ -125,6 +125,7 @@ TEST(Monkey, RandomInputLeavesASoundDocument) {
     Workspace workspace;
     Session session(Session::Drawing::None);
     int failures = 0;
+    int lastFailure = -2;
     std::uint64_t lastRevision = 0;
     int edits = 0;
     for (int frame = 0; frame < frames; ++frame) {
@@ -134,6 +135,8 @@ TEST(Monkey, RandomInputLeavesASoundDocument) {
         if (!session.failure().empty()) {
             ++failures;
             std::printf("frame %d: %s\n", frame, session.failure().c_str());
+            ASSERT_NE(lastFailure, frame - 1) << "an assertion costs a frame, not two";
+            lastFailure = frame;
         }
         const ViewState& view = workspace.view();
         ASSERT_TRUE(std::isfinite(view.hour) && view.hour >= 0.0 && view.hour < 24.0) << frame;
