@@ -103,6 +103,10 @@ float drawHandle(Studio& studio, const Picture& picture, const glm::vec3& origin
     const glm::vec2 reach = pixels / length * std::min(5.0f * em, 1e3f * length);
     const ImVec2 tip{start.x + reach.x, start.y + reach.y};
     const float side = 1.2f * em;
+    if (tip.x < picture.low.x + side || tip.x > picture.low.x + picture.size.x - side ||
+        tip.y < picture.low.y + side || tip.y > picture.low.y + picture.size.y - side) {
+        return 0.0f;
+    }
     ImGui::SetCursorScreenPos({tip.x - 0.5f * side, tip.y - 0.5f * side});
     ImGui::InvisibleButton(name, {side, side});
     studio.mark(std::string("probe handle ") + name);
@@ -149,6 +153,7 @@ void drawProbeGizmo(Studio& studio, const ImVec2& low, const ImVec2& size) {
     const Picture picture{studio.around.clipFromWorld, low, size};
     const ImU32 influence = ImGui::GetColorU32(kAccent);
     const ImU32 proxy = IM_COL32(150, 190, 220, 160);
+    const ImVec2 cursor = ImGui::GetCursorScreenPos();
     ImGui::PushClipRect(low, {low.x + size.x, low.y + size.y}, true);
     for (const model::Id id : chosen) {
         const auto index = model::findProbe(studio.model.ids(), id);
@@ -167,6 +172,7 @@ void drawProbeGizmo(Studio& studio, const ImVec2& low, const ImVec2& size) {
         }
     }
     ImGui::PopClipRect();
+    ImGui::SetCursorScreenPos(cursor);
 }
 
 } // namespace lodestar::ui

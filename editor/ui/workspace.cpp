@@ -39,8 +39,16 @@ void Panels::light() const {
     workspace_.gradient_.draw(studio_, studio_.chosenKey());
 }
 
+void Panels::probes() const {
+    drawProbePanel(studio_);
+}
+
 void Panels::materials() const {
     drawMaterialPanel(studio_);
+}
+
+void Panels::environment() const {
+    drawEnvironmentPanel(studio_);
 }
 
 void Panels::day() const {

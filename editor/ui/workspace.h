@@ -22,12 +22,14 @@ class Workspace;
 /// ImGui window that is begun, once a frame at most.
 class Panels {
 public:
-    void scene() const;     ///< nodes, materials, lights
-    void light() const;     ///< the chosen light: its axis or path, and its key's gradient
-    void materials() const; ///< the chosen materials
-    void day() const;       ///< 24 hours of the chosen light
-    void report() const;    ///< the plan, the times, the log
-    void viewport() const;  ///< the picture, all of the room that is left
+    void scene() const;       ///< nodes, materials, lights
+    void light() const;       ///< the chosen light: its axis or path, and its key's gradient
+    void probes() const;      ///< the chosen light probe
+    void materials() const;   ///< the chosen materials
+    void environment() const; ///< the environment behind the scene
+    void day() const;         ///< 24 hours of the chosen light
+    void report() const;      ///< the plan, the times, the log
+    void viewport() const;    ///< the picture, all of the room that is left
     /// Answers the keys of `bindings()`: where the host's own do not hold.
     void answerKeys() const;
 
