@@ -30,6 +30,7 @@ Editor::Editor(gl::Device& device, ui::Clipboard clipboard)
     : device_(&device), session_(ui::Session::Drawing::OpenGl, std::move(clipboard)) {
     settings_.waitForForecast = false;
     settings_.faceBudget = 2;
+    around_.drawsProbes = true;
     around_.estimators = {"tent", "ring:3", "ring:7", "taps:32", "taps:64", "auto:0.05"};
 }
 

@@ -147,12 +147,18 @@ void drawScenePanel(Studio& studio) {
     ImGui::TextColored(kDimText, "%s", studio.around.sceneName.c_str());
     heading("Lights");
     drawLights(studio);
-    heading("Light probes");
-    drawProbes(studio);
-    heading("Materials");
-    drawMaterials(studio);
-    heading("Nodes");
-    drawNodes(studio);
+    if (studio.around.drawsProbes || !studio.model.document().probes.empty()) {
+        heading("Light probes");
+        drawProbes(studio);
+    }
+    if (!studio.around.materials.empty()) {
+        heading("Materials");
+        drawMaterials(studio);
+    }
+    if (!studio.around.nodes.empty()) {
+        heading("Nodes");
+        drawNodes(studio);
+    }
 }
 
 } // namespace lodestar::ui

@@ -56,6 +56,7 @@ struct Surroundings {
     std::string sceneName, documentName;
     std::vector<NodeLine> nodes;
     std::vector<MaterialLine> materials;
+    bool drawsProbes = false;            ///< the picture shows what light probes of the document do
     std::vector<ProbeLine> probes;       ///< in the document's order
     glm::vec3 low{0.0f}, high{1.0f};     ///< world box about the scene
     glm::mat4 clipFromWorld{1.0f};       ///< of the picture
