@@ -13,6 +13,7 @@ namespace lodestar::app {
 void addRender(CLI::App& app, int& status);
 void addView(CLI::App& app, int& status);
 void addEdit(CLI::App& app, int& status);
+void addScript(CLI::App& app, int& status);
 void addPlan(CLI::App& app, int& status);
 void addSample(CLI::App& app, int& status);
 void addBake(CLI::App& app, int& status);

@@ -22,6 +22,7 @@ int runProgram(int argc, char** argv) {
     addRender(app, status);
     addView(app, status);
     addEdit(app, status);
+    addScript(app, status);
     addPlan(app, status);
     addSample(app, status);
     addBake(app, status);
