@@ -119,7 +119,7 @@ void drawControls(Studio& studio, model::Id light, model::Id key, std::size_t ke
     ImGui::SameLine();
     ImGui::Text("%s", clockText(studio.view.hour).c_str());
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(6.5f * ImGui::GetFontSize());
+    ImGui::SetNextItemWidth(ImGui::CalcTextSize("0.4 h a second").x + 1.5f * ImGui::GetFontSize());
     studio.view.hoursASecond =
         numberField("##speed", studio.view.hoursASecond, 0.01f, 0.01, 24.0, "%.3g h a second")
             .value_or(studio.view.hoursASecond);
