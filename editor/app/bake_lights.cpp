@@ -66,8 +66,8 @@ core::Image pictureOf(const lighting::Gradient& sky, const glm::dvec3& axis) {
     return image;
 }
 
-/// Relative RMS difference over all normals between the irradiance of the lights and the
-/// panorama's.
+} // namespace
+
 double diffuseError(const core::Image& panorama, const lighting::PhotographedLights& lights,
                     const glm::dvec3& axis) {
     const lighting::Cubemap truth =
@@ -98,8 +98,7 @@ double diffuseError(const core::Image& panorama, const lighting::PhotographedLig
     return norm > 0.0 ? std::sqrt(off / norm) : 0.0;
 }
 
-/// What an artist should make of it.
-std::string advice(double residual, double error) {
+std::string photographAdvice(double residual, double error) {
     if (error > 0.15) {
         return "much of this sky's light lies where no symmetric map has it: light the scene by "
                "the panorama itself (--environment), as a cube map";
@@ -108,6 +107,17 @@ std::string advice(double residual, double error) {
                             "ones mirror is not there"
                           : "the sky is close to symmetric about the axis: these lights show it";
 }
+
+std::vector<document::Light> documentLights(const lighting::PhotographedLights& lights,
+                                            const glm::dvec3& axis) {
+    std::vector<document::Light> made{lightOf("sky", LightKind::Sky, lights.sky, axis)};
+    if (lights.sun) {
+        made.push_back(lightOf("sun", LightKind::Sun, lights.sun->gradient, lights.sun->axis));
+    }
+    return made;
+}
+
+namespace {
 
 ordered_json describe(const core::Image& panorama, const lighting::PhotographedLights& lights,
                       const glm::dvec3& axis, const core::Tally& warnings) {
@@ -128,7 +138,7 @@ ordered_json describe(const core::Image& panorama, const lighting::PhotographedL
     json["residual_before"] = lights.residualBefore;
     json["residual"] = lights.residual;
     json["diffuse_error"] = error;
-    json["advice"] = advice(lights.residual, error);
+    json["advice"] = photographAdvice(lights.residual, error);
     json["warnings"] = warnings.counts();
     return json;
 }
@@ -161,11 +171,7 @@ int bakeLights(const BakeLightsOptions& options) {
     const lighting::PhotographedLights lights =
         lighting::lightsFromPanorama(*panorama, *axis, !options.keepSun);
     document::Document document;
-    document.lights.push_back(lightOf("sky", LightKind::Sky, lights.sky, *axis));
-    if (lights.sun) {
-        document.lights.push_back(
-            lightOf("sun", LightKind::Sun, lights.sun->gradient, lights.sun->axis));
-    }
+    document.lights = documentLights(lights, *axis);
     if (auto saved = io::saveDocument(options.output, document); !saved) {
         return fail(saved.error());
     }

@@ -76,11 +76,19 @@ double Editor::patience() const {
     if (model_.dirty() && !file_.path().empty()) {
         seconds = std::min(seconds, model::kAutosaveSeconds);
     }
+    if (!file_.path().empty()) {
+        seconds = std::min(seconds, kWatchSeconds);
+    }
+    if (work_.runs()) {
+        seconds = std::min(seconds, kWorkSeconds);
+    }
     return seconds;
 }
 
 void Editor::advance(double seconds) {
     sinceFrame_ += seconds;
+    watchFile(seconds);
+    pollWork();
     if (!file_.path().empty()) {
         if (auto written = file_.autosave(model_, now()); !written) {
             workspace_.say(written.error().message(), true);
@@ -159,6 +167,8 @@ void Editor::answer(const ui::Wishes& wishes) {
     if (wishes.pick) {
         pick(*wishes.pick);
     }
+    answerPhotograph(wishes);
+    answerFiles(wishes);
     if (wishes.save) {
         save();
     }
@@ -220,6 +230,7 @@ void Editor::save() {
 }
 
 core::Result<void> Editor::buildPanels(int width, int height, float scale) {
+    refreshPhotograph();
     // A first pass tells where the viewport is; where that has another size, its picture is made
     // anew, and the panels show it.
     for (int pass = 0; pass < 2; ++pass) {

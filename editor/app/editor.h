@@ -13,8 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "app/background.h"
 #include "app/scene_lighting.h"
 #include "gl/framebuffer.h"
+#include "gl/texture.h"
 #include "model/document_file.h"
 #include "model/model.h"
 #include "platform/window.h"
@@ -57,11 +59,16 @@ public:
     [[nodiscard]] model::Model& model() { return model_; }
     [[nodiscard]] ui::Workspace& workspace() { return workspace_; }
     [[nodiscard]] const ui::Surroundings& surroundings() const { return around_; }
+    /// Whether something goes on beside the frames.
+    [[nodiscard]] bool works() const { return work_.runs(); }
     [[nodiscard]] int framesDrawn() const { return framesDrawn_; }
     [[nodiscard]] int picturesDrawn() const { return picturesDrawn_; }
 
 private:
     using Clock = std::chrono::steady_clock;
+    static constexpr double kWatchSeconds = 1.0;
+    static constexpr int kWindowFrames = 3;      ///< until a window that appears is seen as it is
+    static constexpr double kWorkSeconds = 0.05; ///< between two looks at what goes on
 
     /// A scene and what shows it. In an order that lets the renderer go first.
     struct Shown {
@@ -105,6 +112,27 @@ private:
     [[nodiscard]] double now() const;
     void handleKey(const platform::KeyEvent& event);
     void drop(const std::string& path);
+
+    // editor_files.cpp
+    /// Looks once a second at what others did to the document's file.
+    void watchFile(double seconds);
+    void reload();
+    void listPresets();
+    void answerFiles(const ui::Wishes& wishes);
+    void paste(const std::string& text);
+    // editor_photograph.cpp
+    void openPhotograph(const std::string& path);
+    void closePhotograph();
+    /// Draws it for the exposure of the view.
+    void showPhotograph();
+    /// Between two frames, as the last one's panels show the old texture.
+    void refreshPhotograph();
+    void useLights(const ui::LightsWish& wish);
+    void useMean(const ui::MeanWish& wish);
+    void setMean(const ui::MeanWish& wish, const document::Gradient& gradient);
+    void answerPhotograph(const ui::Wishes& wishes);
+    void pollWork();
+    void describeWork();
     /// Another picture is due.
     void stale();
 
@@ -139,6 +167,14 @@ private:
     int framesDrawn_ = 0, picturesDrawn_ = 0;
     std::string status_;
     bool closing_ = false;
+
+    double sinceWatched_ = 0.0; ///< the document's file, seconds
+    std::vector<std::string> presetWarnings_;
+    std::shared_ptr<const core::Image> photographSmall_; ///< as wide as its texture
+    std::vector<document::Light> photographLights_;      ///< of its fit
+    gl::Texture photographTexture_;
+    double photographExposure_ = 0.0; ///< of that texture
+    Background work_;                 ///< last, so that it has ended before what it fills goes
 };
 
 } // namespace lodestar::app

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // Events of a window as the panels take them.
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
-
 #include "app/editor.h"
 
 namespace lodestar::app {
@@ -63,13 +59,6 @@ ui::Key from(platform::Key key) {
     return ui::Key::Alt;
 }
 
-std::string extensionOf(const std::string& path) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
-
 } // namespace
 
 void Editor::handle(const platform::Event& event) {
@@ -115,22 +104,6 @@ void Editor::handleKey(const platform::KeyEvent& event) {
     } else {
         session_.wake();
     }
-}
-
-void Editor::drop(const std::string& path) {
-    const std::string extension = extensionOf(path);
-    core::Result<void> done;
-    if (extension == ".gltf" || extension == ".glb") {
-        done = openScene(path, {});
-    } else if (extension == ".json") {
-        done = openLightingFile(path);
-    } else {
-        workspace_.say("neither a scene nor a lighting document: " + path, true);
-    }
-    if (!done) {
-        workspace_.say(done.error().message(), true);
-    }
-    session_.wake();
 }
 
 } // namespace lodestar::app

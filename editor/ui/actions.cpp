@@ -9,6 +9,7 @@ namespace {
 constexpr Binding kBindings[] = {
     {Action::Open, Menu::File, "Open scene...", Key::O, true},
     {Action::OpenLighting, Menu::File, "Open lighting...", Key::L, true},
+    {Action::OpenPhotograph, Menu::File, "Lights from a photograph...", Key::P, true},
     {Action::Save, Menu::File, "Save lighting", Key::S, true},
     {Action::SaveAs, Menu::File, "Save lighting as...", Key::S, true, true},
     {Action::Quit, Menu::File, "Quit", Key::Q, true},

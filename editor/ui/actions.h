@@ -13,6 +13,7 @@ namespace lodestar::ui {
 enum class Action {
     Open,
     OpenLighting,
+    OpenPhotograph,
     Save,
     SaveAs,
     Quit,

@@ -26,15 +26,30 @@ void heading(const char* text) {
 
 std::optional<double> numberField(const char* id, double value, float speed, double least,
                                   double most, const char* format) {
-    if (!ImGui::DragScalar(id, ImGuiDataType_Double, &value, speed, &least, &most, format,
+    double typed = value;
+    if (!ImGui::DragScalar(id, ImGuiDataType_Double, &typed, speed, &least, &most, format,
                            ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat) ||
-        !std::isfinite(value)) {
+        !std::isfinite(typed)) {
         return std::nullopt;
     }
-    return std::clamp(value, least, most);
+    // A document has no denormals. A text that stands in the field is a value in every frame, and a
+    // change in one alone.
+    typed = std::clamp(std::isnormal(typed) ? typed : 0.0, least, most);
+    return typed != value ? std::optional(typed) : std::nullopt;
 }
 
 namespace {
+
+/// The last widget's colour may be dragged to where one is taken.
+void dragColor(const glm::dvec3& value) {
+    if (ImGui::BeginDragDropSource()) {
+        const glm::vec3 color(value);
+        ImGui::SetDragDropPayload(IMGUI_PAYLOAD_TYPE_COLOR_3F, &color.x, sizeof color,
+                                  ImGuiCond_Once);
+        ImGui::TextUnformatted("drop it on the gradient");
+        ImGui::EndDragDropSource();
+    }
+}
 
 /// A picker of hue and saturation over the brightest channel, which it keeps.
 std::optional<glm::dvec3> pickerPopup(const char* id, const glm::dvec3& value, double most) {
@@ -68,6 +83,7 @@ std::optional<glm::dvec3> colorField(const char* id, const glm::dvec3& value, do
     if (ImGui::InvisibleButton("##swatch", {1.6f * side, side})) {
         ImGui::OpenPopup("##pick");
     }
+    dragColor(value);
     ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + 1.6f * side, low.y + side},
                                               shownColor(value, exposure), 3.0f);
     ImGui::GetWindowDrawList()->AddRect(low, {low.x + 1.6f * side, low.y + side},

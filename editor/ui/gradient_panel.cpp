@@ -83,7 +83,7 @@ void drawBrushFields(Studio& studio) {
     }
 }
 
-void drawShapeButtons(Studio& studio, model::Id key) {
+void drawShapeButtons(Studio& studio, model::Id key, lighting::LightKind kind) {
     if (button(studio, "Reverse", "R")) {
         studio.runOnce(model::ReverseStops{key});
     }
@@ -99,6 +99,10 @@ void drawShapeButtons(Studio& studio, model::Id key) {
     if (button(studio, "Simplify", "to at most 8 stops")) {
         studio.runOnce(model::SimplifyStops{key});
     }
+    ImGui::SameLine();
+    if (button(studio, "Reset", "to a new light's gradient")) {
+        studio.runOnce(model::SetGradient{key, model::plainLight(kind, {}).keys.front().gradient});
+    }
 }
 
 void drawToggles(Studio& studio) {
@@ -108,7 +112,8 @@ void drawToggles(Studio& studio) {
     ImGui::Checkbox("Snap", &studio.view.snapping);
     studio.mark("Snap");
     if (ImGui::IsItemHovered()) {
-        ImGui::SetTooltip("to 5\xc2\xb0, the horizon and other stops; Alt turns it around");
+        ImGui::SetTooltip("to 5\xc2\xb0, the horizon and other stops; Alt turns it around\n"
+                          "Ctrl: whole 5\xc2\xb0, with Shift whole degrees; Shift: stops, horizon");
     }
     ImGui::SameLine();
     ImGui::Checkbox("False colours", &studio.view.falseColor);
@@ -176,7 +181,7 @@ void GradientPanel::draw(Studio& studio, model::Id key) {
             studio, "##space", static_cast<std::size_t>(painted->gradient.space), kSpaces)) {
         studio.runOnce(model::SetSpace{key, static_cast<GradientSpace>(*chosen)});
     }
-    drawShapeButtons(studio, key);
+    drawShapeButtons(studio, key, studio.model.document().lights[place->light].kind);
 }
 
 } // namespace lodestar::ui

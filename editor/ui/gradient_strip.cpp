@@ -5,7 +5,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include <imgui_internal.h>
+
 #include "model/ramp.h"
+#include "ui/input.h"
 #include "ui/theme.h"
 
 namespace lodestar::ui {
@@ -162,6 +165,9 @@ void GradientStrip::press(Studio& studio, const Frame& frame, double at) {
             studio.model.select(selection);
         }
         at = frame.key->gradient.stops[*handle].stop.at;
+    } else if (ImGui::GetIO().MousePos.y <= frame.bottom() &&
+               ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+        return; // its first click has added the stop
     } else if (ImGui::GetIO().MousePos.y <= frame.bottom()) {
         const auto added = studio.runOnce(model::AddStop{frame.id, at});
         if (!added || added->created.empty()) {
@@ -178,6 +184,31 @@ void GradientStrip::press(Studio& studio, const Frame& frame, double at) {
     }
 }
 
+/// Where a drag draws a stop to. Ctrl: whole 5 degrees; with Shift: whole degrees; Shift alone:
+/// other stops and the horizon; else as the studio says, which Alt turns around.
+double GradientStrip::drawnTo(const Studio& studio, const Frame& frame, double at) const {
+    constexpr double kAnywhere = 360.0;
+    constexpr double kCoarse = 5.0;
+    const ImGuiIO& io = ImGui::GetIO();
+    model::Snap snap = studio.view.snap;
+    snap.reach = std::abs(frame.at(io.MousePos.x + 6.0f * frame.scale) - at);
+    if (io.KeyCtrl) {
+        snap = {io.KeyShift ? 1.0 : kCoarse, false, false, kAnywhere};
+    } else if (io.KeyShift) {
+        snap = {0.0, true, true, kAnywhere};
+    } else if (studio.view.snapping == io.KeyAlt) {
+        return at;
+    }
+    std::vector<double> others;
+    for (std::size_t i = 0; i < frame.stops.size(); ++i) {
+        if (std::none_of(grabbed_.begin(), grabbed_.end(),
+                         [&](const model::StopMove& m) { return m.stop == frame.stops[i]; })) {
+            others.push_back(frame.key->gradient.stops[i].stop.at);
+        }
+    }
+    return model::snapped(at, snap, others);
+}
+
 void GradientStrip::drag(Studio& studio, const Frame& frame, double at) {
     const ImGuiIO& io = ImGui::GetIO();
     const float away = std::max(frame.low.y - io.MousePos.y,
@@ -187,18 +218,7 @@ void GradientStrip::drag(Studio& studio, const Frame& frame, double at) {
     if (!moved_ || grabbed_.empty() || (io.MouseDelta.x == 0.0f && io.MouseDelta.y == 0.0f)) {
         return; // a pointer at rest changes nothing
     }
-    if (studio.view.snapping != io.KeyAlt) {
-        std::vector<double> others;
-        for (std::size_t i = 0; i < frame.stops.size(); ++i) {
-            if (std::none_of(grabbed_.begin(), grabbed_.end(),
-                             [&](const model::StopMove& m) { return m.stop == frame.stops[i]; })) {
-                others.push_back(frame.key->gradient.stops[i].stop.at);
-            }
-        }
-        model::Snap snap = studio.view.snap;
-        snap.reach = std::abs(frame.at(io.MousePos.x + 6.0f * frame.scale) - at);
-        at = model::snapped(at, snap, others);
-    }
+    at = drawnTo(studio, frame, at);
     const model::AngleRange range = model::anglesOf(frame.kind);
     model::MoveStops move;
     for (const model::StopMove& from : grabbed_) {
@@ -225,6 +245,71 @@ void GradientStrip::stroke(Studio& studio, const Frame& frame, double at) {
     if (path_.empty() || path_.back() != at) {
         path_.push_back(at);
         studio.run(model::BrushStroke{frame.id, studio.view.brushSettings, path_});
+    }
+}
+
+/// A colour that is dropped on a handle is that stop's, elsewhere a new stop's.
+void GradientStrip::takeDrop(Studio& studio, const Frame& frame, double at) {
+    if (!ImGui::BeginDragDropTarget()) {
+        return;
+    }
+    for (const auto& [type, channels] :
+         {std::pair(IMGUI_PAYLOAD_TYPE_COLOR_3F, 3), std::pair(IMGUI_PAYLOAD_TYPE_COLOR_4F, 4)}) {
+        const ImGuiPayload* const payload = ImGui::AcceptDragDropPayload(type);
+        if (payload == nullptr || payload->DataSize != channels * static_cast<int>(sizeof(float))) {
+            continue;
+        }
+        const auto* const color = static_cast<const float*>(payload->Data);
+        const lighting::GradientStop dropped = model::stopOf(at, {color[0], color[1], color[2]});
+        if (const auto handle = frame.handleAt(ImGui::GetIO().MousePos)) {
+            studio.runOnce(model::SetStops{{frame.stops[*handle]}, {}, dropped.color, dropped.ev});
+        } else {
+            studio.runOnce(model::InsertStops{frame.id, {{dropped, {}}}});
+        }
+    }
+    ImGui::EndDragDropTarget();
+}
+
+/// Left and right move the selected stops of a strip that has the focus, by a 180th of it, with
+/// Shift by an 18th; up and down go on to other fields.
+void GradientStrip::answerArrows(Studio& studio, const Frame& frame) {
+    if (!ImGui::IsItemFocused() || ImGui::IsItemActive() ||
+        studio.model.selection().stops.empty()) {
+        return;
+    }
+    const int steps = (ImGui::IsKeyPressed(static_cast<int>(Key::Right)) ? 1 : 0) -
+                      (ImGui::IsKeyPressed(static_cast<int>(Key::Left)) ? 1 : 0);
+    if (ImGui::IsKeyDown(static_cast<int>(Key::Right)) ||
+        ImGui::IsKeyDown(static_cast<int>(Key::Left))) {
+        ImGui::NavMoveRequestCancel(); // the focus stays here
+    }
+    if (steps == 0) {
+        return;
+    }
+    const double parts = (ImGui::GetIO().KeyShift ? 10.0 : 1.0) * steps;
+    const model::AngleRange range = model::anglesOf(frame.kind);
+    model::MoveStops move;
+    for (const model::Id id : studio.model.selection().stops) {
+        if (const document::Stop* stop = studio.model.stop(id)) {
+            const double at = stop->stop.at;
+            // A sky's parts are degrees, exactly.
+            const double to = frame.kind == LightKind::Sky
+                                  ? at - parts
+                                  : atOf(placeOf(at, frame.kind) + parts / 180.0, frame.kind);
+            move.moves.push_back({id, std::clamp(to, range.least, range.most)});
+        }
+    }
+    studio.runOnce(move);
+}
+
+/// The right or the middle button on a handle deletes its stop.
+void GradientStrip::answerRemoval(Studio& studio, const Frame& frame) {
+    if (ImGui::IsItemHovered() && !ImGui::IsItemActive() &&
+        (ImGui::IsMouseClicked(ImGuiMouseButton_Right) ||
+         ImGui::IsMouseClicked(ImGuiMouseButton_Middle))) {
+        if (const auto handle = frame.handleAt(ImGui::GetIO().MousePos)) {
+            studio.runOnce(model::DeleteStops{{frame.stops[*handle]}});
+        }
     }
 }
 
@@ -255,6 +340,9 @@ void GradientStrip::draw(Studio& studio, model::Id key) {
     if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
         ImGui::SetMouseCursor(studio.view.brush ? ImGuiMouseCursor_None : ImGuiMouseCursor_Hand);
     }
+    takeDrop(studio, frame, at);
+    answerArrows(studio, frame);
+    answerRemoval(studio, frame);
     // What the pointer has just done is drawn in the same frame.
     frame.key = studio.model.key(key);
     frame.stops = studio.model.ids().lights[place->light].keys[place->key].stops;

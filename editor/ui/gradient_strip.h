@@ -34,6 +34,10 @@ private:
 
     void drawRamp(Studio& studio, const Frame& frame) const;
     static void drawTicks(const Frame& frame);
+    static void takeDrop(Studio& studio, const Frame& frame, double at);
+    static void answerArrows(Studio& studio, const Frame& frame);
+    static void answerRemoval(Studio& studio, const Frame& frame);
+    [[nodiscard]] double drawnTo(const Studio& studio, const Frame& frame, double at) const;
     void drawStops(Studio& studio, const Frame& frame) const;
     void press(Studio& studio, const Frame& frame, double at);
     void drag(Studio& studio, const Frame& frame, double at);

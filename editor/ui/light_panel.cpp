@@ -3,28 +3,12 @@
 
 #include <glm/trigonometric.hpp>
 
-#include "model/presets.h"
 #include "ui/fields.h"
 #include "ui/panels.h"
 #include "ui/theme.h"
 
 namespace lodestar::ui {
 namespace {
-
-void drawPresets(Studio& studio) {
-    label("preset");
-    const bool open = ImGui::BeginCombo("##preset", "choose a whole sky ...");
-    studio.mark("preset");
-    if (open) {
-        for (const model::Preset& preset : model::builtInPresets()) {
-            if (ImGui::Selectable(preset.name.c_str())) {
-                studio.runOnce(model::SetLights{preset.lights});
-            }
-            studio.mark("preset/" + preset.name);
-        }
-        ImGui::EndCombo();
-    }
-}
 
 void drawPath(Studio& studio, model::Id id, lighting::SunPath path) {
     const glm::dvec2 north = degreesOfAxis(path.north);

@@ -42,6 +42,12 @@ private:
 
 /// The light that is painted: which, its axis or path, the key's tint.
 void drawLightPanel(Studio& studio);
+/// The choice of presets, built in and the user's, and the saving of one.
+void drawPresets(Studio& studio);
+/// Asks what is to become of what others wrote to the document's file. @param asks begins to
+void drawOutside(Studio& studio, bool asks);
+/// What goes on beside the frames, with a button that ends it, as Escape does.
+void drawWork(Studio& studio);
 /// The materials that are selected: exponent, reflectances, estimator.
 void drawMaterialPanel(Studio& studio);
 /// The environment behind the scene: its source, rotation and exposure.

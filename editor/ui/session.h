@@ -31,7 +31,8 @@ public:
 
     void push(const Input& input);
     /// Something outside of the input has changed: draws once more.
-    void wake() { framesWanted_ = framesWanted_ > 0 ? framesWanted_ : 1; }
+    /// @param frames more than one where a window appears: its size is known in its second frame
+    void wake(int frames = 1) { framesWanted_ = framesWanted_ > frames ? framesWanted_ : frames; }
     /// Whether there is anything to draw: input that waits, or a layout that still settles.
     [[nodiscard]] bool wantsFrame() const { return !queue_.empty() || framesWanted_ > 0; }
 

@@ -54,6 +54,17 @@ bool Studio::pressed(Key key, bool repeats) const {
         around.placeOfKey != nullptr ? around.placeOfKey(key) : static_cast<int>(key), repeats);
 }
 
+void Studio::give(const glm::dvec3& radiance) {
+    if (view.brush) {
+        view.brushSettings.color = radiance;
+    } else if (model.selection().stops.empty()) {
+        say("no stop is selected to get the radiance", true);
+    } else {
+        const lighting::GradientStop picked = model::stopOf(0.0, radiance);
+        (void)run(model::SetStops{model.selection().stops, {}, picked.color, picked.ev});
+    }
+}
+
 void Studio::mark(const std::string& name) {
     mark(name, ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
 }

@@ -17,8 +17,10 @@
 #include <glm/vec3.hpp>
 #include <imgui.h>
 
+#include "core/image.h"
 #include "gl/device.h"
 #include "model/model.h"
+#include "model/presets.h"
 #include "model/ramp.h"
 #include "plan/effect_plan.h"
 #include "ui/input.h"
@@ -51,6 +53,31 @@ struct MaterialLine {
     bool direct = false; ///< its Blinn-Phong numbers are given, not its roughness and metalness
 };
 
+/// How a panorama's light is split into a sky about an axis and a sun, and what that loses.
+struct PhotographFit {
+    glm::dvec3 axis{0.0, 1.0, 0.0}; ///< unit, of the sky
+    bool takesSun = true;           ///< whether a sun was looked for
+    std::optional<glm::dvec3> sun;  ///< unit, towards the sun that was found
+    double sunRadius = 0.0;         ///< degrees
+    double residual = 0.0;          ///< lighting::PhotographedLights'
+    double diffuseError = 0.0;      ///< of irradiance, relative, RMS over all normals
+    std::string advice;
+};
+
+/// A picture that lights are taken from.
+struct Photograph {
+    std::string name;
+    std::shared_ptr<const core::Image> radiance; ///< linear, 3 channels, repaired; null: none
+    unsigned picture = 0;             ///< a GL texture of it, its first row on top; 0: none
+    std::optional<PhotographFit> fit; ///< of a panorama
+};
+
+/// Work that goes on beside the frames.
+struct WorkLine {
+    std::string text;
+    double share = 0.0; ///< of its stages that are done, [0, 1]
+};
+
 /// What the panels are shown besides the document.
 struct Surroundings {
     std::string sceneName, documentName;
@@ -68,6 +95,9 @@ struct Surroundings {
     /// Where ImGuiIO::KeysDown has a key, -1 where nowhere: of the back-end of a host's context. A
     /// Session has each at its own number.
     int (*placeOfKey)(Key) = nullptr;
+    Photograph photograph;
+    std::optional<WorkLine> work;
+    std::vector<model::Preset> presets; ///< the user's own
 };
 
 /// How the picture is looked at: not part of the document.
@@ -85,6 +115,8 @@ struct ViewState {
     bool help = false;
     int node = -1;                  ///< of Surroundings::nodes, that is selected; -1: none
     std::string estimator = "tent"; ///< of the frame
+    std::string presetName;         ///< that is typed
+    std::string presetLeaves;       ///< whose deletion waits for a second click
 };
 
 /// How the camera is to move; framebuffer pixels.
@@ -95,6 +127,17 @@ struct CameraMove {
     bool fast = false;
     bool frameAll = false, frameSelection = false, reset = false;
     bool operator==(const CameraMove&) const = default;
+};
+
+/// A panorama's mean over azimuth as the gradient of a key.
+struct MeanWish {
+    model::Id key = model::Id::None;
+    glm::dvec3 axis{0.0, 1.0, 0.0}; ///< not zero
+};
+/// A panorama's sky, and its sun, in place of the document's lights.
+struct LightsWish {
+    glm::dvec3 axis{0.0, 1.0, 0.0}; ///< of the sky, unit
+    bool takesSun = true;
 };
 
 /// What a frame of the panels asks for.
@@ -108,6 +151,13 @@ struct Wishes {
     bool selectMore = false;
     std::optional<std::size_t> captureProbe; ///< the document's, to be captured anew
     std::optional<glm::ivec2> pick;          ///< a pixel of the viewport, from its top left
+    std::optional<std::string> openPhotograph;
+    bool closePhotograph = false, cancelWork = false;
+    std::optional<MeanWish> mean;
+    std::optional<LightsWish> lights;
+    bool listPresets = false;                            ///< reads the user's folder again
+    std::optional<std::string> savePreset, removePreset; ///< names
+    bool reload = false, keepMine = false;               ///< what others did to the document's file
     /// The viewport in the framebuffer: left, top, width, height in pixels.
     std::array<int, 4> viewport{};
 };
@@ -144,6 +194,8 @@ public:
     /// The same as a step of its own.
     std::optional<model::Outcome> runOnce(const model::Command& command);
     void say(std::string text, bool isError = false);
+    /// Gives the selected stops, or the brush, a radiance. While one widget is held it is one step.
+    void give(const glm::dvec3& radiance);
 
     [[nodiscard]] bool down(Key key) const;
     /// In this frame. @param repeats again and again while it is held

@@ -92,8 +92,12 @@ Wishes Workspace::draw(model::Model& model, const Surroundings& surroundings,
     };
     try {
         contents(Panels(*this, studio));
+        photograph_.draw(studio);
         drawPrompts(studio);
         drawQuestion(studio);
+        drawOutside(studio, asksOutside_);
+        asksOutside_ = false;
+        drawWork(studio);
         drawHelp();
     } catch (...) { // an assertion of Dear ImGui's: what was said stays said
         keep();
@@ -202,7 +206,7 @@ void Workspace::drawPrompts(Studio& studio) {
         return;
     }
     const char* titles[] = {"", "Open scene (.gltf, .glb)", "Open lighting (.lodestar.json)",
-                            "Save lighting as"};
+                            "Open photograph (.hdr .exr .png .jpg)", "Save lighting as"};
     const char* title = titles[static_cast<int>(prompt_)];
     if (promptOpens_) {
         ImGui::OpenPopup(title);
@@ -228,9 +232,10 @@ void Workspace::drawPrompts(Studio& studio) {
     ImGui::SameLine();
     const bool cancelled = ImGui::Button("Cancel") || studio.pressed(Key::Escape);
     if (done && !path_.empty()) {
-        auto& wish = prompt_ == Prompt::SaveAs      ? studio.wishes.saveAs
-                     : prompt_ == Prompt::OpenScene ? studio.wishes.openScene
-                                                    : studio.wishes.openLighting;
+        auto& wish = prompt_ == Prompt::SaveAs           ? studio.wishes.saveAs
+                     : prompt_ == Prompt::OpenPhotograph ? studio.wishes.openPhotograph
+                     : prompt_ == Prompt::OpenScene      ? studio.wishes.openScene
+                                                         : studio.wishes.openLighting;
         wish = path_;
     }
     if (done || cancelled) {
@@ -334,6 +339,8 @@ void Workspace::perform(Studio& studio, const Binding& binding) {
         return ask(Prompt::OpenScene);
     case Action::OpenLighting:
         return ask(Prompt::OpenLighting);
+    case Action::OpenPhotograph:
+        return ask(Prompt::OpenPhotograph);
     case Action::SaveAs:
         return ask(Prompt::SaveAs);
     case Action::Save:

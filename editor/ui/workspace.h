@@ -11,6 +11,7 @@
 #include <string>
 
 #include "ui/panels.h"
+#include "ui/photograph_panel.h"
 #include "ui/studio.h"
 
 namespace lodestar::ui {
@@ -58,6 +59,8 @@ public:
     void givePicked(model::Model& model, const glm::dvec3& radiance);
     /// Asks whether unsaved changes are to be saved before the end.
     void askBeforeQuit() { asksQuit_ = true; }
+    /// Asks what is to become of what others wrote to the document's file.
+    void askAboutOutside() { asksOutside_ = true; }
 
     /// Where things were drawn in the last frame, by name.
     [[nodiscard]] const std::map<std::string, Mark>& marks() const { return marks_; }
@@ -75,18 +78,19 @@ private:
     bool performOnGradient(Studio& studio, const Binding& binding);
 
     /// A path that is asked for.
-    enum class Prompt { None, OpenScene, OpenLighting, SaveAs };
+    enum class Prompt { None, OpenScene, OpenLighting, OpenPhotograph, SaveAs };
 
     ViewState view_;
     GradientPanel gradient_;
     DayPanel day_;
+    PhotographPanel photograph_;
     std::map<std::string, Mark> marks_;
     std::deque<LogLine> log_;
     model::MergeToken token_ = 0;
     ImGuiID holder_ = 0;
     Prompt prompt_ = Prompt::None;
     bool promptOpens_ = false;
-    bool asksQuit_ = false;
+    bool asksQuit_ = false, asksOutside_ = false;
     std::string path_;
 };
 

@@ -48,6 +48,10 @@ protected:
     /// One frame, whether or not one is wanted.
     void frame() {
         editor_->advance(1.0 / 60.0);
+        draw();
+    }
+    /// The same while no time passes.
+    void draw() {
         const auto drawn = editor_->drawFrame(kWidth, kHeight, 1.0f, target_.framebuffer());
         ASSERT_TRUE(drawn.ok()) << drawn.error().message();
     }
@@ -90,7 +94,11 @@ protected:
         send(platform::KeyEvent{key, false, false, modifiers});
         settle();
     }
-    void control(platform::Key key, bool shift = false) { press(key, {shift, true, false}); }
+    void control(platform::Key key, bool shift = false) {
+        press(key, {shift, true, false});
+        send(platform::KeyEvent{platform::Key::Control, false, false, {}});
+        settle();
+    }
     void type(const std::string& text) {
         for (const char character : text) {
             send(platform::TextEvent{static_cast<char32_t>(character)});
