@@ -60,7 +60,7 @@ void Editor::stale() {
 }
 
 bool Editor::wantsFrame() const {
-    return session_.wantsFrame() || pictureStale_ ||
+    return session_.wantsFrame() || pictureStale_ || pendingScene_.has_value() ||
            (coarse_ &&
             std::chrono::duration<double>(Clock::now() - lastChange_).count() >= kStillSeconds);
 }
@@ -89,6 +89,7 @@ void Editor::advance(double seconds) {
     sinceFrame_ += seconds;
     watchFile(seconds);
     pollWork();
+    openPendingScene();
     if (!file_.path().empty()) {
         if (auto written = file_.autosave(model_, now()); !written) {
             workspace_.say(written.error().message(), true);
@@ -178,7 +179,7 @@ void Editor::answer(const ui::Wishes& wishes) {
     } else if (wishes.openLighting) {
         done = openLightingFile(*wishes.openLighting);
     } else if (wishes.openScene) {
-        done = openScene(*wishes.openScene, {});
+        openSceneSoon(*wishes.openScene);
     }
     if (!done) {
         workspace_.say(done.error().message(), true);

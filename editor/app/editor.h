@@ -117,6 +117,9 @@ private:
     /// Looks once a second at what others did to the document's file.
     void watchFile(double seconds);
     void reload();
+    /// Opens a scene once a frame has said so: the frames wait, as its textures go to the GPU.
+    void openSceneSoon(const std::string& path);
+    void openPendingScene();
     void listPresets();
     void answerFiles(const ui::Wishes& wishes);
     void paste(const std::string& text);
@@ -169,6 +172,8 @@ private:
     bool closing_ = false;
 
     double sinceWatched_ = 0.0; ///< the document's file, seconds
+    std::optional<std::string> pendingScene_;
+    int pendingFrame_ = 0; ///< framesDrawn_ at which it is opened
     std::vector<std::string> presetWarnings_;
     std::shared_ptr<const core::Image> photographSmall_; ///< as wide as its texture
     std::vector<document::Light> photographLights_;      ///< of its fit

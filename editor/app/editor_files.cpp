@@ -4,6 +4,7 @@
 // is dropped.
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "app/editor.h"
 #include "io/file.h"
@@ -69,6 +70,25 @@ void Editor::reload() {
         workspace_.say(file_.path().filename().string() +
                        " was changed by another program and read again; undo goes back");
     }
+    session_.wake();
+}
+
+void Editor::openSceneSoon(const std::string& path) {
+    pendingScene_ = path;
+    pendingFrame_ = framesDrawn_ + kWindowFrames;
+    describeWork();
+    session_.wake(kWindowFrames);
+}
+
+void Editor::openPendingScene() {
+    if (!pendingScene_ || framesDrawn_ < pendingFrame_) {
+        return;
+    }
+    const std::string path = *std::exchange(pendingScene_, std::nullopt);
+    if (auto opened = openScene(path, {}); !opened) {
+        workspace_.say(opened.error().message(), true);
+    }
+    describeWork();
     session_.wake();
 }
 
@@ -140,7 +160,7 @@ void Editor::drop(const std::string& path) {
     const std::string extension = extensionOf(path);
     core::Result<void> done;
     if (extension == ".gltf" || extension == ".glb") {
-        done = openScene(path, {});
+        openSceneSoon(path);
     } else if (isPicture(extension)) {
         openPhotograph(path);
     } else if (extension == ".json") {

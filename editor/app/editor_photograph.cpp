@@ -113,7 +113,7 @@ void Editor::openPhotograph(const std::string& path) {
     work_.start(
         {"Reading " + name, "Looking for the sun in " + name, "Comparing lights with " + name},
         read);
-    session_.wake();
+    session_.wake(kWindowFrames);
 }
 
 void Editor::closePhotograph() {
@@ -254,7 +254,10 @@ void Editor::pollWork() {
 
 void Editor::describeWork() {
     around_.work.reset();
-    if (work_.runs()) {
+    if (pendingScene_) {
+        around_.work = ui::WorkLine{
+            "Opening " + std::filesystem::path(*pendingScene_).filename().string(), 0.0, false};
+    } else if (work_.runs()) {
         around_.work = ui::WorkLine{work_.stage(), work_.share()};
     }
 }

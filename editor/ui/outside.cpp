@@ -19,7 +19,7 @@ void drawOutside(Studio& studio, bool asks) {
                                     ImGuiWindowFlags_NoSavedSettings)) {
         return;
     }
-    ImGui::TextUnformatted("There are unsaved changes here too. Either can be undone.");
+    ImGui::TextUnformatted("There are unsaved changes here too. Reading it again can be undone.");
     const bool reload = ImGui::Button("Read it again");
     studio.mark("Read it again");
     ImGui::SameLine();
@@ -46,6 +46,10 @@ void drawWork(Studio& studio) {
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
     ImGui::TextUnformatted(studio.around.work->text.c_str());
+    if (!studio.around.work->stops) {
+        ImGui::End();
+        return;
+    }
     ImGui::ProgressBar(static_cast<float>(studio.around.work->share), {-5.0f * em, 0.0f}, "");
     ImGui::SameLine();
     studio.wishes.cancelWork = ImGui::Button("Cancel", {-1.0f, 0.0f}) ||

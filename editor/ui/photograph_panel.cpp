@@ -69,7 +69,7 @@ void PhotographPanel::draw(Studio& studio) {
     }
     const float em = ImGui::GetFontSize();
     const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const float width = std::max(std::min(34.0f * em, 0.9f * display.x), 1.0f);
+    const float width = std::max(std::min(31.0f * em, 0.9f * display.x), 1.0f);
     ImGui::SetNextWindowPos({0.5f * (display.x - width) - 4.0f * em, 2.5f * em},
                             ImGuiCond_Appearing);
     ImGui::SetNextWindowSize({width, 0.0f}, ImGuiCond_Always);
@@ -92,7 +92,7 @@ void PhotographPanel::draw(Studio& studio) {
 
 void PhotographPanel::drawPicture(Studio& studio) {
     const float room = std::max(ImGui::GetContentRegionAvail().x, 16.0f);
-    const float most = 20.0f * ImGui::GetFontSize();
+    const float most = 15.0f * ImGui::GetFontSize();
     const auto aspect = static_cast<float>(shown_->height()) / static_cast<float>(shown_->width());
     Place place;
     place.image = shown_.get();
@@ -254,7 +254,7 @@ void PhotographPanel::drawLights(Studio& studio) {
                                      degrees.y, fit.sunRadius)
                 : ImGui::TextColored(kDimText, "none was found");
     }
-    label("not symmetric");
+    label("asymmetry");
     ImGui::AlignTextToFramePadding();
     ImGui::Text("%.0f %% of the light;  diffuse error %.1f %%", 100.0 * fit.residual,
                 100.0 * fit.diffuseError);

@@ -72,10 +72,11 @@ struct Photograph {
     std::optional<PhotographFit> fit; ///< of a panorama
 };
 
-/// Work that goes on beside the frames.
+/// Work that goes on beside the frames, or that the next one waits for.
 struct WorkLine {
     std::string text;
     double share = 0.0; ///< of its stages that are done, [0, 1]
+    bool stops = true;  ///< whether it can be cancelled
 };
 
 /// What the panels are shown besides the document.

@@ -193,6 +193,7 @@ TEST_F(EditorFilesTest, DroppedFilesAreOpenedOrPasted) {
     settle();
     EXPECT_EQ(editor_->workspace().log().size(), lines + 2);
     EXPECT_EQ(model().document(), before);
+    EXPECT_FALSE(editor_->surroundings().work.has_value());
 }
 
 /// What is written ends after so many bytes of a file.

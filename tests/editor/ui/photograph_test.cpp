@@ -6,7 +6,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "app/bake_lights.h"
 #include "editor/ui/editor_fixture.h"
+#include "io/environment_file.h"
 #include "io/image_file.h"
 #include "lighting/zonal_picture.h"
 #include "model/ramp.h"
@@ -106,6 +108,44 @@ TEST_F(PhotographTest, ASkyAndItsSunBecomeTheLights) {
     control(Key::Z);
     control(Key::Z);
     EXPECT_EQ(text(), before);
+}
+
+TEST_F(PhotographTest, ARealSkyIsFittedBesideTheFramesAsBakingDoes) {
+    LODESTAR_NEEDS_SHARED();
+    for (const char* name : {"park", "city", "studio"}) {
+        const auto path =
+            sharedPath((std::string("assets/hdr/pmndrs/") + name + ".hdr").c_str()).string();
+        const auto start = std::chrono::steady_clock::now();
+        send(platform::DropEvent{{path}});
+        double longest = 0.0;
+        int frames = 0;
+        while (editor_->works() && frames < 20000) {
+            const auto before = std::chrono::steady_clock::now();
+            frame();
+            const std::chrono::duration<double> took = std::chrono::steady_clock::now() - before;
+            longest = std::max(longest, took.count());
+            ++frames;
+        }
+        const std::chrono::duration<double> all = std::chrono::steady_clock::now() - start;
+        ASSERT_TRUE(photograph().fit.has_value()) << name;
+        std::printf("%s: %.2f s, %d frames meanwhile, the longest %.0f ms; asymmetry %.3f, "
+                    "diffuse error %.3f\n",
+                    name, all.count(), frames, 1e3 * longest, photograph().fit->residual,
+                    photograph().fit->diffuseError);
+        EXPECT_GT(frames, 1) << "the frames waited";
+        core::Tally warnings;
+        const auto image = io::loadRadiance(path, warnings);
+        ASSERT_TRUE(image.ok());
+        const auto lights = lighting::lightsFromPanorama(*image, glm::dvec3(0.0, 1.0, 0.0));
+        EXPECT_EQ(photograph().fit->residual, lights.residual) << name;
+        settle();
+        keep(std::string("photograph-") + name);
+        click(mark("Use as the lights").center());
+        finish();
+        EXPECT_EQ(model().document().lights, app::documentLights(lights, glm::dvec3(0.0, 1.0, 0.0)))
+            << name;
+        keep(std::string("photograph-") + name + "-used");
+    }
 }
 
 TEST_F(PhotographTest, TheMeanOverAzimuthBecomesTheGradient) {
