@@ -15,7 +15,6 @@
 namespace lodestar::app {
 namespace {
 
-constexpr int kTileSide = 1024;
 /// Quick lookups are repeated for so long: the processor has other things to do.
 constexpr double kEnoughMs = 100.0;
 
@@ -44,8 +43,12 @@ CostShading::CostShading(gl::Device& device)
     : device_(device), vertices_(device), timer_(device), frameBlock_(device), lightBlock_(device) {
 }
 
-core::Result<std::unique_ptr<CostShading>> CostShading::make(gl::Device& device) {
+core::Result<std::unique_ptr<CostShading>>
+CostShading::make(gl::Device& device, std::shared_ptr<lighting::RsrmKernels> kernels) {
     std::unique_ptr<CostShading> shading(new CostShading(device));
+    if (kernels) {
+        shading->kernels_ = std::move(kernels);
+    }
     auto target = gl::Framebuffer::make(device, kTileSide, kTileSide);
     if (!target) {
         return target.error();
@@ -124,7 +127,7 @@ core::Result<std::uint64_t> CostShading::prepare(const CostedLookup& lookup,
     return device_.counters().textureBytes - before;
 }
 
-core::Result<double> CostShading::timed(const gl::Defines& defines, double exponent, int repeats) {
+core::Result<double> CostShading::drawn(const gl::Defines& defines, double exponent, int rows) {
     const auto made = program(defines);
     if (!made) {
         return made.error();
@@ -142,17 +145,32 @@ core::Result<double> CostShading::timed(const gl::Defines& defines, double expon
     (*made)->use();
     glUniform2f((*made)->uniform("uTile"), static_cast<float>(kTileSide),
                 static_cast<float>(exponent));
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, 0, kTileSide, rows);
+    timer_.begin();
+    gl::drawFullScreen(device_);
+    timer_.end();
+    glDisable(GL_SCISSOR_TEST);
+    return timer_.milliseconds();
+}
+
+core::Result<double> CostShading::timed(const gl::Defines& defines, double exponent, int repeats) {
     double least = std::numeric_limits<double>::infinity();
     double spent = 0.0;
     for (int i = -1; i < repeats || (spent < kEnoughMs && i < 8 * repeats); ++i) {
-        timer_.begin();
-        gl::drawFullScreen(device_);
-        timer_.end();
-        const double ms = timer_.milliseconds();
-        least = i < 0 ? least : std::min(least, ms); // the first compiles
-        spent += ms;
+        const auto ms = drawn(defines, exponent, kTileSide);
+        if (!ms) {
+            return ms;
+        }
+        least = i < 0 ? least : std::min(least, *ms); // the first compiles
+        spent += *ms;
     }
     return least / (kTileSide * kTileSide * 1e-6);
+}
+
+core::Result<double> CostShading::slice(double exponent, int rows) {
+    const auto ms = drawn(definesFor(lookup_), exponent, rows);
+    return ms ? core::Result<double>(*ms / (kTileSide * rows * 1e-6)) : ms;
 }
 
 core::Result<double> CostShading::milliseconds(double exponent, int repeats) {

@@ -22,13 +22,24 @@ namespace lodestar::app {
 
 class CostShading {
 public:
+    /// Rows of the tile.
+    static constexpr int kTileSide = 1024;
+
+    /// @param kernels to share with others that bake maps; null: its own
     /// @errors NoOpenGl if the driver has no memory for the tile
-    [[nodiscard]] static core::Result<std::unique_ptr<CostShading>> make(gl::Device& device);
+    [[nodiscard]] static core::Result<std::unique_ptr<CostShading>>
+    make(gl::Device& device, std::shared_ptr<lighting::RsrmKernels> kernels = nullptr);
 
     /// Uploads what a lookup reads, in place of what was there. @return bytes of its textures
     /// @errors NoOpenGl
     [[nodiscard]] core::Result<std::uint64_t> prepare(const CostedLookup& lookup,
                                                       const lighting::Cubemap& base);
+    /// Shades by another lookup that reads what the last one prepared: an estimator over the same
+    /// mips.
+    void use(const CostedLookup& lookup) { lookup_ = lookup; }
+    /// Milliseconds a megapixel of one drawing of the tile's lowest rows, in which a frame's time
+    /// is spent no longer than it may. @param rows [1, kTileSide]  @errors as milliseconds
+    [[nodiscard]] core::Result<double> slice(double exponent, int rows);
     /// Milliseconds a megapixel of a tile shaded by what was prepared last: the least of a few
     /// repeats. @param exponent Blinn-Phong  @errors Internal (a shader that the driver refuses)
     [[nodiscard]] core::Result<double> milliseconds(double exponent, int repeats);
@@ -45,6 +56,8 @@ private:
     [[nodiscard]] gl::Defines definesFor(const CostedLookup& lookup) const;
     [[nodiscard]] core::Result<double> timed(const gl::Defines& defines, double exponent,
                                              int repeats);
+    /// Milliseconds of one drawing.
+    [[nodiscard]] core::Result<double> drawn(const gl::Defines& defines, double exponent, int rows);
     [[nodiscard]] core::Result<void> prepareMap(const CostedLookup& lookup);
 
     gl::Device& device_;

@@ -18,6 +18,8 @@ constexpr int kFineSamples = 2;
 constexpr double kStillSeconds = 0.25;
 /// A picture that takes longer than this, milliseconds, is coarse while it changes.
 constexpr double kSmoothMs = 25.0;
+/// So often news of what is measured are looked for.
+constexpr double kMeterSeconds = 0.02;
 
 double msSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
@@ -55,12 +57,13 @@ double Editor::now() const {
 }
 
 void Editor::stale() {
+    forgetErrors();
     pictureStale_ = true;
     lastChange_ = Clock::now();
 }
 
 bool Editor::wantsFrame() const {
-    return session_.wantsFrame() || pictureStale_ || pendingScene_.has_value() ||
+    return session_.wantsFrame() || pictureStale_ || pendingScene_.has_value() || errorDue() ||
            (coarse_ &&
             std::chrono::duration<double>(Clock::now() - lastChange_).count() >= kStillSeconds);
 }
@@ -72,6 +75,9 @@ double Editor::patience() const {
     double seconds = std::numeric_limits<double>::infinity();
     if (coarse_) {
         seconds = kStillSeconds;
+    }
+    if (meter_.busy()) {
+        seconds = std::min(seconds, kMeterSeconds);
     }
     if (model_.dirty() && !file_.path().empty()) {
         seconds = std::min(seconds, model::kAutosaveSeconds);
@@ -96,6 +102,7 @@ void Editor::advance(double seconds) {
             session_.wake();
         }
     }
+    syncAccuracy();
     ui::ViewState& view = workspace_.view();
     if (view.playing) {
         view.hour = lighting::wrappedHour(view.hour + seconds * view.hoursASecond);
@@ -325,6 +332,10 @@ core::Result<void> Editor::drawFrame(int width, int height, float scale, unsigne
             pictureStale_ = false;
             workspace_.say(drawn.error().message(), true);
         }
+    }
+    syncPreview();
+    if (errorDue()) {
+        drawErrorPass();
     }
     gl::beginWindowPass(*device_, framebuffer, 0, 0, width, height);
     glDisable(GL_SCISSOR_TEST);

@@ -13,7 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "app/accuracy_meter.h"
 #include "app/background.h"
+#include "app/editor_preview.h"
+#include "app/error_view.h"
 #include "app/scene_lighting.h"
 #include "gl/framebuffer.h"
 #include "gl/texture.h"
@@ -63,6 +66,12 @@ public:
     [[nodiscard]] bool works() const { return work_.runs(); }
     [[nodiscard]] int framesDrawn() const { return framesDrawn_; }
     [[nodiscard]] int picturesDrawn() const { return picturesDrawn_; }
+    [[nodiscard]] int previewsDrawn() const { return previewsDrawn_; }
+    /// Passes of the error view's reference so far, of how many.
+    [[nodiscard]] int errorPasses() const { return error_ ? error_->passes() : 0; }
+    static constexpr int kErrorPasses = 32;
+    /// The figures of the error view. @pre a pass has been drawn
+    [[nodiscard]] ErrorFigures errorFigures() const { return error_->figures(); }
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -95,6 +104,17 @@ private:
     void syncProbes();
     /// What the panels are told of the light probes.
     void describeProbes();
+
+    /// A material's number by what a document calls it.
+    [[nodiscard]] std::optional<std::size_t> materialIndex(const std::string& key) const;
+    /// Draws the sphere of the selected material anew where it or its light has changed.
+    void syncPreview();
+    /// Says what is to be measured of the selected material, and takes what is.
+    void syncAccuracy();
+    /// Whether the error view is still to be made or to be made better.
+    [[nodiscard]] bool errorDue() const;
+    void drawErrorPass();
+    void forgetErrors();
 
     void answer(const ui::Wishes& wishes);
     void moveCamera(const ui::CameraMove& move);
@@ -154,6 +174,21 @@ private:
     ProbeMaps probeMaps_;
     core::Tally probeWarnings_;    ///< of the last time that they were set
     std::vector<int> shownProbes_; ///< by the renderer's order: which of the document's
+    std::shared_ptr<const lighting::Cubemap> environment_; ///< that is set, where there is one
+
+    /// What the sphere depends on.
+    struct PreviewKey {
+        std::size_t material = 0;
+        std::uint64_t document = 0;
+        double hour = 0.0, exposure = 0.0;
+        bool operator==(const PreviewKey&) const = default;
+    };
+    std::unique_ptr<MaterialPreview> preview_;
+    std::optional<PreviewKey> previewed_;
+    int previewsDrawn_ = 0;
+    AccuracyMeter meter_;
+    std::optional<ErrorView> error_;
+    gl::Texture errorPicture_;
 
     scene::RenderSettings settings_;
     scene::CameraRequest request_;

@@ -77,17 +77,17 @@ ui::MaterialLine lineOf(const io::GltfMaterial& material, std::size_t index) {
     ui::MaterialLine line;
     line.key = material.name.empty() ? "#" + std::to_string(index) : material.name;
     const glm::vec3 base(material.baseColor);
-    line.direct = material.blinnPhong.has_value();
     if (material.blinnPhong) {
         const io::GltfBlinnPhong& given = *material.blinnPhong;
         line.exponent = static_cast<double>(given.exponent.value_or(0.0f));
         line.diffuse = given.diffuse.value_or(base);
         line.f0 = given.f0.value_or(glm::vec3(0.04f));
     } else {
-        line.exponent =
-            static_cast<double>(shader::lodestar_exponentFromRoughness(material.roughness));
-        line.diffuse = shader::lodestar_diffuseFromMetallic(base, material.metallic);
-        line.f0 = shader::lodestar_f0FromMetallic(base, material.metallic);
+        line.exponent = static_cast<double>(
+            material.exponent.value_or(shader::lodestar_exponentFromRoughness(material.roughness)));
+        line.diffuse = material.diffuse.value_or(
+            shader::lodestar_diffuseFromMetallic(base, material.metallic));
+        line.f0 = material.f0.value_or(shader::lodestar_f0FromMetallic(base, material.metallic));
     }
     if (material.specularEstimator) {
         line.specular = lighting::estimatorName(*material.specularEstimator);
@@ -172,6 +172,8 @@ core::Result<void> Editor::openScene(const std::string& path, const std::string&
     }
     scenePath_ = path;
     assetRoot_ = root;
+    preview_.reset();
+    previewed_.reset();
     shown_ = std::move(*shown);
     hasEnvironment_ = false;
     everSynced_ = false;
@@ -239,6 +241,7 @@ void Editor::syncEnvironment() {
         if (hasEnvironment_) {
             shown_.renderer->setEnvironment({}, {});
             hasEnvironment_ = false;
+            environment_.reset();
         }
         return;
     }
@@ -253,6 +256,7 @@ void Editor::syncEnvironment() {
         light = &*loaded;
     }
     shown_.renderer->setEnvironment(light->name, light->environment.base);
+    environment_ = std::make_shared<lighting::Cubemap>(light->environment.base);
     hasEnvironment_ = true;
 }
 

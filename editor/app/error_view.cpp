@@ -209,10 +209,12 @@ core::Image ErrorView::picture(double full, Legend legend) const {
     return image;
 }
 
-bool litByEnvironment(const plan::EffectPlan& plan) {
-    return std::any_of(
-        plan.drawFeatures.begin(), plan.drawFeatures.end(),
-        [](plan::Features features) { return plan::has(features, plan::Feature::Environment); });
+bool litFromAfar(const plan::EffectPlan& plan) {
+    return std::any_of(plan.drawFeatures.begin(), plan.drawFeatures.end(),
+                       [](plan::Features features) {
+                           return plan::has(features, plan::Feature::Environment) ||
+                                  plan::has(features, plan::Feature::RsrmLights);
+                       });
 }
 
 nlohmann::json toJson(const ErrorFigures& figures, int taps) {

@@ -59,8 +59,9 @@ private:
     int passes_[2] = {0, 0};
 };
 
-/// Whether an environment lights a surface that a plan draws: what a reference is made of.
-[[nodiscard]] bool litByEnvironment(const plan::EffectPlan& plan);
+/// Whether an environment, a sky or a sun lights a surface that a plan draws: what a reference is
+/// made of.
+[[nodiscard]] bool litFromAfar(const plan::EffectPlan& plan);
 
 [[nodiscard]] nlohmann::json toJson(const ErrorFigures& figures, int taps);
 

@@ -92,8 +92,9 @@ nlohmann::json stats(const std::vector<scene::Frame>& frames, const gl::WorkCoun
 /// Draws the last frame again, by its own estimators and by many taps, and writes how they differ.
 core::Result<nlohmann::json> compare(const RenderOptions& options, const LoadedScene& loaded,
                                      const scene::Frame& frame, scene::Renderer& renderer) {
-    if (!litByEnvironment(*frame.plan)) {
-        return usage("no surface in the picture is lit by an environment, whose light is compared",
+    if (!litFromAfar(*frame.plan)) {
+        return usage("no surface in the picture is lit by an environment, a sky or a sun, whose "
+                     "light is compared",
                      "--error-view");
     }
     auto again = renderer.redraw(loaded.view, loaded.settings, {});
@@ -261,7 +262,7 @@ void addRender(CLI::App& app, int& status) {
         ->check(CLI::Range(-24.0, 24.0));
     command->add_option(
         "--error-view", options->errorView,
-        "ERROR.png: the last frame against its environment's light by many taps a pixel,\n"
+        "ERROR.png: the last frame against its light from afar by many taps a pixel,\n"
         "in false colour with a legend in per cent; the figures go to standard output");
     command->add_option("--error-scale", options->errorScale, "Per cent that have the last colour")
         ->check(CLI::Range(1e-3, 1e6))

@@ -19,19 +19,22 @@ constexpr double kMaxExponent = 1e7;
 constexpr int kWidestFileProbe = 2048; ///< texels of a face
 
 void apply(const document::Material& from, io::GltfMaterial& material, core::Tally& warnings) {
-    if (from.exponent || from.diffuse || from.f0) {
-        io::GltfBlinnPhong given = material.blinnPhong.value_or(io::GltfBlinnPhong{});
-        if (from.exponent) {
-            given.exponent = static_cast<float>(std::min(*from.exponent, kMaxExponent));
-            given.exponentTexture = {};
+    // What a file gives by roughness and metalness stays so, textures and all, but for what is
+    // given here.
+    auto& exponent = material.blinnPhong ? material.blinnPhong->exponent : material.exponent;
+    auto& diffuse = material.blinnPhong ? material.blinnPhong->diffuse : material.diffuse;
+    auto& f0 = material.blinnPhong ? material.blinnPhong->f0 : material.f0;
+    if (from.exponent) {
+        exponent = static_cast<float>(std::min(*from.exponent, kMaxExponent));
+        if (material.blinnPhong) {
+            material.blinnPhong->exponentTexture = {};
         }
-        if (from.diffuse) {
-            given.diffuse = glm::vec3(*from.diffuse);
-        }
-        if (from.f0) {
-            given.f0 = glm::vec3(*from.f0);
-        }
-        material.blinnPhong = given;
+    }
+    if (from.diffuse) {
+        diffuse = glm::vec3(*from.diffuse);
+    }
+    if (from.f0) {
+        f0 = glm::vec3(*from.f0);
     }
     if (from.specular) {
         const auto estimator = lighting::parseEstimator(*from.specular, lighting::Term::Glossy);

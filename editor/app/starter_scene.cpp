@@ -23,8 +23,11 @@ io::GltfPrimitive sphere(float radius, int material) {
             const glm::vec3 n(std::sin(v) * std::sin(u), std::cos(v), std::sin(v) * std::cos(u));
             primitive.positions.push_back(radius * n);
             primitive.normals.push_back(n);
+            primitive.uvs[0].emplace_back(static_cast<float>(i) / static_cast<float>(kSegments),
+                                          static_cast<float>(j) / static_cast<float>(kRings));
         }
     }
+    primitive.uvs[1] = primitive.uvs[0];
     for (int j = 0; j < kRings; ++j) {
         for (int i = 0; i < kSegments; ++i) {
             const auto at = [](int column, int row) {
@@ -117,6 +120,15 @@ io::GltfFile starterScene() {
     camera.verticalFov = 0.62f;
     camera.nearPlane = 0.05f;
     file.cameras.push_back(camera);
+    return file;
+}
+
+io::GltfFile sphereScene() {
+    io::GltfFile file;
+    file.scenes.push_back({"sphere", {}});
+    file.defaultScene = 0;
+    add(file, material("sphere", glm::vec3(0.5f), glm::vec3(0.04f), 1.0f), sphere(1.0f, 0),
+        glm::vec3(0.0f));
     return file;
 }
 

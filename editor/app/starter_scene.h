@@ -11,4 +11,7 @@ namespace lodestar::app {
 /// 1 m across, on a pale floor; a camera looks at them from the south.
 [[nodiscard]] io::GltfFile starterScene();
 
+/// One sphere of radius 1 m about the origin with texture coordinates, of one material.
+[[nodiscard]] io::GltfFile sphereScene();
+
 } // namespace lodestar::app

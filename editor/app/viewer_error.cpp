@@ -3,8 +3,8 @@
 // The viewer's error view: a frame against its reference, a pass a frame while nothing moves.
 #include <utility>
 
+#include "app/error_texture.h"
 #include "app/viewer.h"
-#include "core/texels.h"
 #include "gl/framebuffer.h"
 
 namespace lodestar::app {
@@ -12,14 +12,16 @@ namespace lodestar::app {
 void Viewer::toggleErrorView() {
     errorShown_ = !errorShown_;
     changed(false);
-    if (errorShown_ && plan_ && !litByEnvironment(*plan_)) {
+    if (errorShown_ && plan_ && !litFromAfar(*plan_)) {
         errorShown_ = false;
-        say("no surface in the picture is lit by an environment, whose light is compared", false);
+        say("no surface in the picture is lit by an environment, a sky or a sun, whose light is "
+            "compared",
+            false);
     }
 }
 
 bool Viewer::errorPending() const {
-    return errorShown_ && plan_ && litByEnvironment(*plan_) &&
+    return errorShown_ && plan_ && litFromAfar(*plan_) &&
            (!error_ || error_->passes() < kReferencePasses);
 }
 
@@ -42,19 +44,7 @@ core::Result<void> Viewer::drawErrorPass() {
         return failed(pass.error());
     }
     error_->add(*pass);
-    const core::Image picture = error_->picture(kErrorScale, ErrorView::Legend::Over);
-    core::Texels texels(picture.width(), picture.height());
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
-            for (int c = 0; c < 4; ++c) {
-                texels.set(x, y, c, picture.at(x, y)[c]);
-            }
-        }
-    }
-    const gl::SamplerState still{
-        gl::Wrap::ClampToEdge, gl::Wrap::ClampToEdge, false, false, false, false};
-    auto texture =
-        gl::Texture::make2D(*device_, texels, gl::TexelEncoding::Linear, still, "the error view");
+    auto texture = errorTexture(*device_, *error_);
     if (!texture) {
         return failed(texture.error());
     }

@@ -36,6 +36,7 @@ constexpr Binding kBindings[] = {
     {Action::Brighter, Menu::View, "Brighter", Key::Plus, false, false, true},
     {Action::Darker, Menu::View, "Darker", Key::Minus, false, false, true},
     {Action::FalseColor, Menu::View, "False colours of radiance", Key::V},
+    {Action::ErrorView, Menu::View, "Error against the reference", Key::E},
     {Action::HourLater, Menu::View, "Later", Key::T, false, false, true},
     {Action::HourEarlier, Menu::View, "Earlier", Key::T, false, true, true},
     {Action::PlayDay, Menu::View, "Play the day", Key::Y},

@@ -38,6 +38,7 @@ enum class Action {
     Brighter,
     Darker,
     FalseColor,
+    ErrorView,
     HourLater,
     HourEarlier,
     PlayDay,

@@ -277,10 +277,9 @@ void GradientStrip::answerArrows(Studio& studio, const Frame& frame) {
         studio.model.selection().stops.empty()) {
         return;
     }
-    const int steps = (ImGui::IsKeyPressed(static_cast<int>(Key::Right)) ? 1 : 0) -
-                      (ImGui::IsKeyPressed(static_cast<int>(Key::Left)) ? 1 : 0);
-    if (ImGui::IsKeyDown(static_cast<int>(Key::Right)) ||
-        ImGui::IsKeyDown(static_cast<int>(Key::Left))) {
+    const int steps =
+        (studio.pressed(Key::Right, true) ? 1 : 0) - (studio.pressed(Key::Left, true) ? 1 : 0);
+    if (studio.down(Key::Right) || studio.down(Key::Left)) {
         ImGui::NavMoveRequestCancel(); // the focus stays here
     }
     if (steps == 0) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <glm/trigonometric.hpp>
 
@@ -27,19 +28,6 @@ double exponentFromSlider(float place) {
     return std::clamp(std::exp2(static_cast<double>(place)) - 1.0, 0.0, kMostExponent);
 }
 
-/// What sets one number of a material. One that is given by roughness and metalness gets all three,
-/// as they look now, so that the others stay.
-model::SetMaterials setterFor(const MaterialLine& material, const std::vector<std::string>& names) {
-    model::SetMaterials set;
-    set.names = names;
-    if (!material.direct && names.size() == 1) {
-        set.exponent = material.exponent;
-        set.diffuse = material.diffuse;
-        set.f0 = material.f0;
-    }
-    return set;
-}
-
 void drawExponent(Studio& studio, const MaterialLine& material,
                   const std::vector<std::string>& names) {
     std::optional<double> wanted;
@@ -58,7 +46,8 @@ void drawExponent(Studio& studio, const MaterialLine& material,
     }
     studio.mark("exponent");
     if (wanted) {
-        model::SetMaterials set = setterFor(material, names);
+        model::SetMaterials set;
+        set.names = names;
         set.exponent = *wanted;
         studio.run(set);
     }
@@ -73,22 +62,81 @@ void drawReflectances(Studio& studio, const MaterialLine& material,
                       const std::vector<std::string>& names) {
     label("diffuse");
     if (const auto value = colorField("diffuse", material.diffuse, 1.0, 1.0)) {
-        model::SetMaterials set = setterFor(material, names);
+        model::SetMaterials set;
+        set.names = names;
         set.diffuse = *value;
         studio.run(set);
     }
     studio.mark("diffuse");
     label("f0");
     if (const auto value = colorField("f0", material.f0, 1.0, 1.0)) {
-        model::SetMaterials set = setterFor(material, names);
+        model::SetMaterials set;
+        set.names = names;
         set.f0 = *value;
         studio.run(set);
     }
     studio.mark("f0");
 }
 
+/// The sphere, right of which there is room.
+void drawPreview(Studio& studio) {
+    if (studio.around.preview == 0) {
+        return;
+    }
+    const float side = 6.0f * ImGui::GetFontSize();
+    label("");
+    ImGui::Image(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(studio.around.preview)),
+                 {side, side}, {0.0f, 1.0f}, {1.0f, 0.0f});
+    studio.mark("preview");
+}
+
+/// What is measured of an estimator, or nothing.
+const EstimateLine* lineOf(const Studio& studio, const std::string& name) {
+    const std::vector<EstimateLine>& lines = studio.around.accuracy.lines;
+    const auto found = std::find_if(lines.begin(), lines.end(),
+                                    [&](const EstimateLine& line) { return line.name == name; });
+    return found != lines.end() ? &*found : nullptr;
+}
+
+/// "2.1 %, 34 ms a megapixel".
+std::string measuredText(const EstimateLine* line) {
+    return line == nullptr
+               ? ""
+               : percentText(line->error) + ", " + millisecondsText(line->ms) + " a megapixel";
+}
+
+void drawChoice(Studio& studio, const std::string& name, bool chosen,
+                const std::vector<std::string>& names) {
+    const EstimateLine* line = lineOf(studio, name);
+    if (ImGui::Selectable(name.c_str(), chosen)) {
+        model::SetMaterials set;
+        set.names = names;
+        set.specular = name;
+        studio.runOnce(set);
+    }
+    studio.mark("estimator/" + name);
+    if (line != nullptr) {
+        const float em = ImGui::GetFontSize();
+        ImGui::SameLine(6.0f * em);
+        ImGui::TextColored(kDimText, "%s", percentText(line->error).c_str());
+        ImGui::SameLine(9.5f * em);
+        ImGui::TextColored(kDimText, "%s", millisecondsText(line->ms).c_str());
+    }
+}
+
 void drawEstimator(Studio& studio, const MaterialLine& material,
                    const std::vector<std::string>& names) {
+    const AccuracyView& accuracy = studio.around.accuracy;
+    if (!accuracy.material.empty() && !accuracy.selectable) {
+        label("estimator");
+        ImGui::PushTextWrapPos();
+        ImGui::TextColored(kDimText,
+                           "Skies and suns are read from their own maps: no choice here. %s",
+                           measuredText(lineOf(studio, "rsrm")).c_str());
+        ImGui::PopTextWrapPos();
+        studio.mark("no estimator");
+        return;
+    }
     label("estimator");
     const bool open = ImGui::BeginCombo(
         "##estimator", material.specular.empty() ? "the frame's" : material.specular.c_str());
@@ -99,16 +147,14 @@ void drawEstimator(Studio& studio, const MaterialLine& material,
                                                             model::MaterialField::Tolerance});
         }
         for (const std::string& name : studio.around.estimators) {
-            if (ImGui::Selectable(name.c_str(), name == material.specular)) {
-                model::SetMaterials set;
-                set.names = names;
-                set.specular = name;
-                studio.runOnce(set);
-            }
-            studio.mark("estimator/" + name);
+            drawChoice(studio, name, name == material.specular, names);
         }
         ImGui::EndCombo();
     }
+    label("");
+    const EstimateLine* used =
+        lineOf(studio, material.specular.empty() ? studio.view.estimator : material.specular);
+    ImGui::TextColored(kDimText, "%s", measuredText(used).c_str());
 }
 
 } // namespace
@@ -128,6 +174,7 @@ void drawMaterialPanel(Studio& studio) {
     heading(names.size() == 1 ? ("Material " + names.front()).c_str()
                               : (std::to_string(names.size()) + " materials").c_str());
     const std::vector<std::string> chosen = names; // a command may change the selection
+    drawPreview(studio);
     drawExponent(studio, *shown, chosen);
     drawReflectances(studio, *shown, chosen);
     drawEstimator(studio, *shown, chosen);

@@ -23,8 +23,7 @@ void drawOutside(Studio& studio, bool asks) {
     const bool reload = ImGui::Button("Read it again");
     studio.mark("Read it again");
     ImGui::SameLine();
-    const bool keep =
-        ImGui::Button("Keep mine") || ImGui::IsKeyPressed(static_cast<int>(Key::Escape));
+    const bool keep = ImGui::Button("Keep mine") || studio.pressed(Key::Escape);
     studio.mark("Keep mine");
     studio.wishes.reload = studio.wishes.reload || reload;
     studio.wishes.keepMine = studio.wishes.keepMine || keep;
@@ -52,8 +51,8 @@ void drawWork(Studio& studio) {
     }
     ImGui::ProgressBar(static_cast<float>(studio.around.work->share), {-5.0f * em, 0.0f}, "");
     ImGui::SameLine();
-    studio.wishes.cancelWork = ImGui::Button("Cancel", {-1.0f, 0.0f}) ||
-                               ImGui::IsKeyPressed(static_cast<int>(Key::Escape));
+    studio.wishes.cancelWork =
+        ImGui::Button("Cancel", {-1.0f, 0.0f}) || studio.pressed(Key::Escape);
     studio.mark("Cancel work");
     ImGui::End();
 }

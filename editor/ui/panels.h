@@ -59,6 +59,14 @@ void drawProbePanel(Studio& studio);
 void drawProbeGizmo(Studio& studio, const ImVec2& low, const ImVec2& size);
 /// A light probe that holds the whole scene, to begin with.
 [[nodiscard]] lighting::Probe firstProbe(const Studio& studio);
+/// The selected material's estimators: error against time, and in numbers.
+void drawAccuracyPanel(Studio& studio);
+/// The rows of the maps of skies and suns with their errors.
+void drawMapRowsPanel(Studio& studio);
+/// An error as a percentage of two digits, or a dash where none is known yet.
+[[nodiscard]] std::string percentText(const std::optional<double>& error);
+/// Milliseconds a megapixel likewise.
+[[nodiscard]] std::string millisecondsText(const std::optional<double>& ms);
 /// The scene's nodes, its materials, the document's lights.
 void drawScenePanel(Studio& studio);
 /// The plan in words, the times of the last frame, the log.

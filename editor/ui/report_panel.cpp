@@ -6,7 +6,7 @@
 namespace lodestar::ui {
 namespace {
 
-void drawPlan(const Studio& studio) {
+void drawPlan(Studio& studio) {
     if (!studio.around.plan) {
         return;
     }
@@ -45,7 +45,7 @@ void drawPlan(const Studio& studio) {
     ImGui::EndTable();
 }
 
-void drawTimes(const Studio& studio) {
+void drawTimes(Studio& studio) {
     if (!ImGui::BeginTable("times", 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg)) {
         return;
     }
@@ -67,7 +67,7 @@ void drawTimes(const Studio& studio) {
     ImGui::EndTable();
 }
 
-void drawLog(const Studio& studio) {
+void drawLog(Studio& studio) {
     for (const LogLine& line : studio.log) {
         ImGui::TextColored(line.isError ? kWarning : kText, "%s", line.text.c_str());
     }
@@ -82,8 +82,12 @@ void drawReportPanel(Studio& studio) {
     if (!ImGui::BeginTabBar("report")) {
         return;
     }
-    const std::pair<const char*, void (*)(const Studio&)> kTabs[] = {
-        {"Plan", drawPlan}, {"Times", drawTimes}, {"Log", drawLog}};
+    const std::pair<const char*, void (*)(Studio&)> kTabs[] = {{"Plan", drawPlan},
+                                                               {"Times", drawTimes},
+                                                               {"Accuracy", drawAccuracyPanel},
+                                                               {"Map rows", drawMapRowsPanel},
+                                                               {"Log", drawLog}};
+    studio.view.mapRows = false; // but where its tab is open
     for (const auto& [name, draw] : kTabs) {
         const bool open = ImGui::BeginTabItem(name);
         studio.mark(std::string("tab ") + name);

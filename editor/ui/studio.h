@@ -23,6 +23,7 @@
 #include "model/presets.h"
 #include "model/ramp.h"
 #include "plan/effect_plan.h"
+#include "ui/accuracy.h"
 #include "ui/input.h"
 
 namespace lodestar::ui {
@@ -50,7 +51,6 @@ struct MaterialLine {
     double exponent = 0.0;            ///< Blinn-Phong [0, 1e7]
     glm::dvec3 diffuse{0.0}, f0{0.0}; ///< reflectances
     std::string specular;             ///< estimator; empty: the frame's
-    bool direct = false; ///< its Blinn-Phong numbers are given, not its roughness and metalness
 };
 
 /// How a panorama's light is split into a sky about an axis and a sun, and what that loses.
@@ -90,6 +90,10 @@ struct Surroundings {
     glm::mat4 clipFromWorld{1.0f};       ///< of the picture
     std::vector<std::string> estimators; ///< that a material may have
     unsigned picture = 0;                ///< a GL texture of the viewport; 0: none
+    unsigned preview = 0;                ///< the same of a sphere of the first selected material
+    unsigned errorPicture = 0;           ///< the same of the picture's errors, row 0 at the top
+    std::string errorText;               ///< what it shows, or how far it has come
+    AccuracyView accuracy;               ///< of the first selected material
     std::shared_ptr<const plan::EffectPlan> plan;
     std::map<std::string, double> timesMs; ///< of the last frame, by step
     gl::WorkCounters counters;             ///< of the last frame
@@ -108,8 +112,10 @@ struct ViewState {
     double hoursASecond = 0.4;
     double exposure = 0.0; ///< stops, +-20
     bool falseColor = false;
-    bool picking = false; ///< the next click in the viewport gives a radiance
-    bool brush = false;   ///< the painter paints freehand
+    bool errorView = false; ///< how far the picture is from a reference
+    bool mapRows = false;   ///< the rows of the maps of skies and suns are shown
+    bool picking = false;   ///< the next click in the viewport gives a radiance
+    bool brush = false;     ///< the painter paints freehand
     model::Brush brushSettings;
     model::Snap snap{5.0, true, true, 0.0};
     bool snapping = false;

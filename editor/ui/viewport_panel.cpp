@@ -71,13 +71,28 @@ void drawViewport(Studio& studio) {
         moveCamera(studio, studio.wishes.camera);
     }
     answerClick(studio, low);
-    if (studio.around.picture != 0) {
+    if (studio.view.errorView && studio.around.errorPicture != 0) {
+        ImGui::GetWindowDrawList()->AddImage(
+            reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(studio.around.errorPicture)),
+            low, {low.x + size.x, low.y + size.y});
+    } else if (studio.around.picture != 0) {
         // Row 0 of a drawn picture is at the bottom.
         ImGui::GetWindowDrawList()->AddImage(
             reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(studio.around.picture)), low,
             {low.x + size.x, low.y + size.y}, {0.0f, 1.0f}, {1.0f, 0.0f});
     }
     drawProbeGizmo(studio, low, size);
+    if (studio.view.errorView && !studio.around.errorText.empty()) {
+        const char* text = studio.around.errorText.c_str();
+        const ImVec2 at(low.x + ImGui::GetFontSize(), low.y + ImGui::GetFontSize());
+        const ImVec2 wide(ImGui::CalcTextSize(text));
+        const float margin = 0.4f * ImGui::GetFontSize();
+        ImDrawList& list = *ImGui::GetWindowDrawList();
+        list.AddRectFilled({at.x - margin, at.y - margin},
+                           {at.x + wide.x + margin, at.y + wide.y + margin},
+                           ImGui::GetColorU32(kPanel));
+        list.AddText(at, ImGui::GetColorU32(kText), text);
+    }
 }
 
 } // namespace lodestar::ui

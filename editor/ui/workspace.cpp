@@ -372,6 +372,9 @@ void Workspace::perform(Studio& studio, const Binding& binding) {
     case Action::FalseColor:
         view_.falseColor = !view_.falseColor;
         break;
+    case Action::ErrorView:
+        view_.errorView = !view_.errorView;
+        break;
     case Action::HourLater:
     case Action::HourEarlier:
         view_.hour = lighting::wrappedHour(

@@ -97,6 +97,11 @@ struct GltfMaterial {
     /// Which TEXCOORD_n of the file is GltfPrimitive::uvs[0] and [1] under this material.
     std::array<int, 2> uvSources{0, 1};
     std::optional<GltfBlinnPhong> blinnPhong;
+    /// What a lighting document says in place of what metallic-roughness makes of a texel; no file
+    /// does. Each stands for itself; without effect beside blinnPhong.
+    std::optional<float> exponent{};    ///< [0, 1e7]
+    std::optional<glm::vec3> diffuse{}; ///< times the base colour's texture and vertices' colours
+    std::optional<glm::vec3> f0{};
 };
 
 enum class Topology { Points, Lines, Triangles };

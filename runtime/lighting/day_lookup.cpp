@@ -36,8 +36,9 @@ glm::dvec3 gradientAt(const DayLight& light, const DayMoment& moment, double the
 
 } // namespace
 
-DayLookup::DayLookup(std::vector<DayLight> lights, const RsrmLayout& layout) {
-    const auto kernels = std::make_shared<RsrmKernels>();
+DayLookup::DayLookup(std::vector<DayLight> lights, const RsrmLayout& layout,
+                     std::shared_ptr<RsrmKernels> kernels) {
+    kernels = kernels ? std::move(kernels) : std::make_shared<RsrmKernels>();
     for (DayLight& day : lights) {
         lights_.push_back({LightMap(std::move(day), layout, kernels)});
     }
@@ -82,27 +83,49 @@ DayLookup::Answer DayLookup::lambert(double hour, const glm::dvec3& normal) {
     return answer;
 }
 
-glm::dvec3 referenceDay(const std::vector<DayLight>& lights, double hour,
-                        const glm::dvec3& direction, double exponent) {
-    glm::dvec3 sum(0.0);
-    for (const DayLight& light : lights) {
-        const DayMoment moment = momentAt(light, hour);
+ReferenceDay::ReferenceDay(const std::vector<DayLight>& lights, double hour) {
+    for (const DayLight& day : lights) {
+        const DayMoment moment = momentAt(day, hour);
         if (moment.visibility <= 0.0) {
             continue;
         }
-        const double theta = angleBetween(direction, moment.axis);
-        if (std::isinf(exponent)) {
-            sum += gradientAt(light, moment, theta);
-            continue;
+        const Zones zones{zonesFor(day.kind).spacing, kReferenceZones};
+        Light light{day, moment, zoneEdges(zones), zonalAt(day, moment, zones).means};
+        while (light.means.size() > 1 && light.means.back() == glm::dvec3(0.0) &&
+               light.means[light.means.size() - 2] == glm::dvec3(0.0)) {
+            light.means.pop_back();
+            light.edges.erase(light.edges.end() - 2);
         }
-        const Zones zones{zonesFor(light.kind).spacing, kReferenceZones};
-        const ZonalRadiance radiance = zonalAt(light, moment, zones);
-        const std::vector<double> weights = ringWeights(theta, zoneEdges(zones), exponent);
-        for (std::size_t j = 0; j < weights.size(); ++j) {
-            sum += weights[j] * radiance.means[j];
-        }
+        lights_.push_back(std::move(light));
+    }
+}
+
+glm::dvec3 ReferenceDay::operator()(std::size_t index, const glm::dvec3& direction,
+                                    double exponent) const {
+    const Light& light = lights_[index];
+    const double theta = angleBetween(direction, light.moment.axis);
+    if (std::isinf(exponent)) {
+        return gradientAt(light.day, light.moment, theta);
+    }
+    const std::vector<double> weights = ringWeights(theta, light.edges, exponent);
+    glm::dvec3 sum(0.0);
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+        sum += weights[j] * light.means[j];
     }
     return sum;
+}
+
+glm::dvec3 ReferenceDay::operator()(const glm::dvec3& direction, double exponent) const {
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        sum += (*this)(i, direction, exponent);
+    }
+    return sum;
+}
+
+glm::dvec3 referenceDay(const std::vector<DayLight>& lights, double hour,
+                        const glm::dvec3& direction, double exponent) {
+    return ReferenceDay(lights, hour)(direction, exponent);
 }
 
 } // namespace lodestar::lighting

@@ -15,8 +15,9 @@ namespace lodestar::lighting {
 /// The lights of a day in maps of one layout, made when they are first asked for.
 class DayLookup {
 public:
-    /// @param lights as `repaired` leaves them
-    DayLookup(std::vector<DayLight> lights, const RsrmLayout& layout);
+    /// @param lights as `repaired` leaves them  @param kernels to share; null: its own
+    DayLookup(std::vector<DayLight> lights, const RsrmLayout& layout,
+              std::shared_ptr<RsrmKernels> kernels = nullptr);
 
     struct Answer {
         glm::dvec3 radiance{0.0};
@@ -36,6 +37,28 @@ private:
     };
     static void prepare(Light& light, const DayMoment& moment, double hour);
 
+    std::vector<Light> lights_;
+};
+
+/// referenceDay at one hour, for many directions: what does not depend on them is kept.
+class ReferenceDay {
+public:
+    /// @param lights as `repaired` leaves them; those that do not shine are left out
+    ReferenceDay(const std::vector<DayLight>& lights, double hour);
+
+    [[nodiscard]] std::size_t count() const { return lights_.size(); }
+    /// The light that one of them gives. @param exponent [0, 1e7], +infinity a mirror
+    [[nodiscard]] glm::dvec3 operator()(std::size_t light, const glm::dvec3& direction,
+                                        double exponent) const;
+    [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& direction, double exponent) const;
+
+private:
+    struct Light {
+        DayLight day;
+        DayMoment moment;
+        std::vector<double> edges; ///< all that is black beyond the last zone that shines is one
+        std::vector<glm::dvec3> means;
+    };
     std::vector<Light> lights_;
 };
 

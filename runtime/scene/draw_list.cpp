@@ -26,14 +26,20 @@ float leastExponent(const io::GltfMaterial& material, const RenderSettings& sett
                    ? 0.0f
                    : material.blinnPhong->exponent.value_or(0.0f);
     }
-    return shader::lodestar_exponentFromRoughness(material.roughness);
+    return material.exponent.value_or(shader::lodestar_exponentFromRoughness(material.roughness));
+}
+
+/// Whether a material's exponent is a texture's.
+bool hasExponentTexture(const io::GltfMaterial& material, const RenderSettings& settings) {
+    const io::GltfTextureRef& texture = material.blinnPhong ? material.blinnPhong->exponentTexture
+                                                            : material.metallicRoughnessTexture;
+    const bool given = !material.blinnPhong && material.exponent;
+    return !settings.materialOverride && !given && texture.texture != io::kNone;
 }
 
 /// The Phong exponent of the sharpest lookup a material makes: seen along the surface.
 double sharpestLookup(const io::GltfMaterial& material, const RenderSettings& settings) {
-    const io::GltfTextureRef& texture = material.blinnPhong ? material.blinnPhong->exponentTexture
-                                                            : material.metallicRoughnessTexture;
-    if (!settings.materialOverride && texture.texture != io::kNone) {
+    if (hasExponentTexture(material, settings)) {
         return std::numeric_limits<double>::infinity();
     }
     return static_cast<double>(
@@ -42,9 +48,7 @@ double sharpestLookup(const io::GltfMaterial& material, const RenderSettings& se
 
 /// The Phong exponent of the bluntest lookup a material makes: seen from above.
 double bluntestLookup(const io::GltfMaterial& material, const RenderSettings& settings) {
-    const io::GltfTextureRef& texture = material.blinnPhong ? material.blinnPhong->exponentTexture
-                                                            : material.metallicRoughnessTexture;
-    if (!settings.materialOverride && texture.texture != io::kNone) {
+    if (hasExponentTexture(material, settings)) {
         return 0.0;
     }
     return static_cast<double>(
@@ -65,8 +69,9 @@ void setTerms(plan::DrawView& draw, const io::GltfMaterial& material,
                       given.exponentTexture.texture != io::kNone;
     } else {
         const bool textured = material.metallicRoughnessTexture.texture != io::kNone;
-        draw.diffuse =
-            (material.metallic < 1.0f || textured) && !isBlack(glm::vec3(material.baseColor));
+        draw.diffuse = material.diffuse ? !isBlack(*material.diffuse)
+                                        : (material.metallic < 1.0f || textured) &&
+                                              !isBlack(glm::vec3(material.baseColor));
         draw.glossy = true; // Fresnel's rise at grazing angles, whatever F0 is
     }
     // Below an exponent of 1 the glossy lobe by estimators that follow it blends into Lambert's.

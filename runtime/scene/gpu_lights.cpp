@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/contract.h"
+#include "lighting/drawn_light.h"
 #include "scene/gpu_scene.h"
 
 namespace lodestar::scene {
@@ -216,6 +217,52 @@ double GpuLights::brightest() const {
         sum += most;
     }
     return sum;
+}
+
+core::Result<void> GpuLights::prepareReference(gl::Device& device, const plan::EffectPlan& plan,
+                                               int taps) {
+    if (plan.rsrmLights.empty()) {
+        return {};
+    }
+    if (drawn_.width() != taps) {
+        auto made = gl::Texture::makeArray(device, taps, 2, static_cast<int>(lights_.size()),
+                                           gl::ArrayFormat::Rgba32F, "points drawn by the lights");
+        if (!made) {
+            return made.error();
+        }
+        drawn_ = std::move(*made);
+        for (Light& light : lights_) {
+            light.drawn.reset();
+        }
+    }
+    for (const plan::LitLight& lit : plan.rsrmLights) {
+        Light& light = lights_[lit.light];
+        const DrawnAt wanted{lighting::LightMap::contentOf(light.moment), light.moment.axis};
+        if (light.drawn == wanted) {
+            continue;
+        }
+        const lighting::DrawnLight drawn =
+            lighting::drawnLight(light.map.day(), light.moment, taps);
+        // Of a black light none is drawn: what is read there is 0.
+        std::vector<glm::vec4> rows(2 * static_cast<std::size_t>(taps), glm::vec4(0.0f));
+        std::fill(rows.begin(), rows.begin() + taps, glm::vec4(light.moment.axis, 1.0f));
+        for (std::size_t i = 0; i < drawn.points.size(); ++i) {
+            rows[i] = glm::vec4(drawn.points[i].direction, static_cast<float>(drawn.sum));
+            rows[static_cast<std::size_t>(taps) + i] =
+                glm::vec4(drawn.points[i].radianceOverDensity, 0.0f);
+        }
+        drawn_.updateLayer(
+            static_cast<int>(lit.light),
+            {reinterpret_cast<const std::uint8_t*>(rows.data()), rows.size() * sizeof(glm::vec4)});
+        light.drawn = wanted;
+    }
+    return {};
+}
+
+void GpuLights::bindReference() const {
+    if (drawn_) {
+        drawn_.bind(kReferenceLightsUnit);
+    }
 }
 
 void GpuLights::bind() const {

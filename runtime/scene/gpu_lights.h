@@ -73,7 +73,19 @@ public:
     [[nodiscard]] double brightest() const;
     void bind() const;
 
+    /// Makes and uploads what pictures by many taps read: points drawn by the light of each light
+    /// of the plan, for the hour last described. @errors as prepare
+    [[nodiscard]] core::Result<void> prepareReference(gl::Device& device,
+                                                      const plan::EffectPlan& plan, int taps);
+    void bindReference() const;
+
 private:
+    /// What drawn points depend on.
+    struct DrawnAt {
+        lighting::LightMap::Content content;
+        glm::dvec3 axis{0.0};
+        bool operator==(const DrawnAt&) const = default;
+    };
     struct Light {
         lighting::LightMap map;
         int shadow = -1; ///< its layer of the shadow maps
@@ -82,6 +94,7 @@ private:
         float scale = 1.0f;               ///< of the uploaded map
         std::vector<glm::dvec3> facing{}; ///< facingIrradiance of its keys, made when asked for
         std::uint64_t painting = 0;
+        std::optional<DrawnAt> drawn{}; ///< what its drawn points are of
     };
 
     [[nodiscard]] core::Result<void> allocate(gl::Device& device);
@@ -93,6 +106,7 @@ private:
     std::shared_ptr<lighting::RsrmKernels> kernels_ = std::make_shared<lighting::RsrmKernels>();
     std::uint64_t paintings_ = 0; ///< numbers given so far
     gl::Texture maps_, lamberts_, gradients_;
+    gl::Texture drawn_; ///< for references
 };
 
 } // namespace lodestar::scene

@@ -71,10 +71,17 @@ core::Result<GpuScene> GpuScene::make(gl::Device& device, const Scene& scene) {
     return result;
 }
 
+GpuScene GpuScene::makeBeside(gl::Device& device, const Scene& scene, const GpuScene& other) {
+    GpuScene result;
+    result.geometry_ = GpuGeometry(device, scene);
+    result.textures_ = other.textures_;
+    return result;
+}
+
 core::Result<void> GpuScene::addTexture(gl::Device& device, const Scene& scene,
                                         const io::GltfTextureRef& reference,
                                         gl::TexelEncoding encoding) {
-    if (reference.texture == io::kNone || textures_.count({reference.texture, encoding}) > 0) {
+    if (reference.texture == io::kNone || textures_->count({reference.texture, encoding}) > 0) {
         return {};
     }
     const io::GltfTexture& texture = scene.textures[static_cast<std::size_t>(reference.texture)];
@@ -87,14 +94,14 @@ core::Result<void> GpuScene::addTexture(gl::Device& device, const Scene& scene,
     if (!made) {
         return made.error();
     }
-    textures_.emplace(std::pair(reference.texture, encoding), std::move(*made));
+    textures_->emplace(std::pair(reference.texture, encoding), std::move(*made));
     return {};
 }
 
 void GpuScene::bindTextures(const io::GltfMaterial& material) const {
     for (const TextureSlot& slot : slotsOf(material)) {
         if (slot.reference->texture != io::kNone) {
-            textures_.at({slot.reference->texture, slot.encoding}).bind(slot.unit);
+            textures_->at({slot.reference->texture, slot.encoding}).bind(slot.unit);
         }
     }
 }
@@ -124,6 +131,12 @@ blocks::LodestarMaterial materialBlock(const io::GltfMaterial& material,
         block.more.x = given.exponentEncoding == io::ExponentEncoding::Log2 ? 1.0f : 0.0f;
         // The shader multiplies k_L by the base colour, whose factor k_L replaces.
         block.baseColor = glm::vec4(glm::vec3(1.0f), material.baseColor.a);
+    } else {
+        block.diffuse = {material.diffuse.value_or(glm::vec3(0.0f)),
+                         material.exponent.value_or(0.0f)};
+        block.f0 = glm::vec4(material.f0.value_or(glm::vec3(0.0f)), 1.0f);
+        block.more = {0.0f, material.exponent ? 1.0f : 0.0f, material.diffuse ? 1.0f : 0.0f,
+                      material.f0 ? 1.0f : 0.0f};
     }
     return block;
 }

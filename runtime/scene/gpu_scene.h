@@ -5,6 +5,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -39,10 +40,11 @@ enum TextureUnit : int {
     kSecondProbeUnit,
     kProbeIrradianceUnit,
     kReferenceUnit,
+    kReferenceLightsUnit,
 };
 
 /// The names of the samplers, by unit.
-inline constexpr std::array<const char*, 20> kSamplerNames = {
+inline constexpr std::array<const char*, 21> kSamplerNames = {
     "uBaseColorTexture", "uMetallicRoughnessTexture",
     "uNormalTexture",    "uOcclusionTexture",
     "uEmissiveTexture",  "uExponentTexture",
@@ -52,11 +54,15 @@ inline constexpr std::array<const char*, 20> kSamplerNames = {
     "uRsrmLamberts",     "uRsrmGradients",
     "uShadows",          "uInstances",
     "uFirstProbe",       "uSecondProbe",
-    "uProbeIrradiance",  "uReferenceLights"};
+    "uProbeIrradiance",  "uReferenceLights",
+    "uDrawnLights"};
 
 class GpuScene {
 public:
     [[nodiscard]] static core::Result<GpuScene> make(gl::Device& device, const Scene& scene);
+    /// With the textures of another scene, which the materials' references name.
+    [[nodiscard]] static GpuScene makeBeside(gl::Device& device, const Scene& scene,
+                                             const GpuScene& other);
 
     [[nodiscard]] const GpuGeometry& geometry() const { return geometry_; }
     /// Binds the textures of a material to the material units; unused units are left as they are.
@@ -68,7 +74,8 @@ private:
                                                 gl::TexelEncoding encoding);
 
     GpuGeometry geometry_;
-    std::map<std::pair<int, gl::TexelEncoding>, gl::Texture> textures_;
+    using Textures = std::map<std::pair<int, gl::TexelEncoding>, gl::Texture>;
+    std::shared_ptr<Textures> textures_ = std::make_shared<Textures>();
 };
 
 /// The uniform block of a material, or of the override.

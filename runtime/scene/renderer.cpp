@@ -40,10 +40,18 @@ double millisecondsSince(Clock::time_point start) {
 } // namespace
 
 struct Renderer::State {
-    State(gl::Device& glDevice, const Scene& drawn, GpuScene uploaded, GpuDeformation deformed)
+    /// What shines from afar, on every renderer that was made beside another.
+    struct DistantLight {
+        GpuEnvironment environment;
+        GpuLights lights;
+    };
+
+    State(gl::Device& glDevice, const Scene& drawn, GpuScene uploaded, GpuDeformation deformed,
+          std::shared_ptr<DistantLight> light)
         : device(glDevice), scene(drawn),
           drawer(glDevice, drawn, std::move(uploaded), std::move(deformed)), timer(glDevice),
-          frameBlock(glDevice), lightBlock(glDevice), observer(drawn) {}
+          frameBlock(glDevice), lightBlock(glDevice), distant(std::move(light)),
+          environment(distant->environment), lights(distant->lights), observer(drawn) {}
 
     gl::Device& device;
     const Scene& scene;
@@ -55,9 +63,11 @@ struct Renderer::State {
     FramePlanner planner;
     std::optional<Presenter> presenter;
 
-    GpuEnvironment environment;
-    GpuLights lights;
+    std::shared_ptr<DistantLight> distant;
+    GpuEnvironment& environment; ///< distant's
+    GpuLights& lights;           ///< the same
     ShadowMaps shadows;
+    int shadowCount = 0; ///< of the lights that these are for
     ProbeObserver observer;
     GpuProbes probes;
     core::Tally probeWarnings;
@@ -88,6 +98,8 @@ struct Renderer::State {
     void bindLight(const RenderSettings& settings, const blocks::LodestarFrame& block);
     core::Result<void> drawProbes(const plan::EffectPlan& plan, const RenderSettings& settings,
                                   const plan::PlanInput& input);
+    core::Result<void> prepareReference(const plan::EffectPlan& plan,
+                                        const RenderSettings& settings, int taps);
     [[nodiscard]] blocks::LodestarFrame frameBlockFor(const RenderSettings& settings,
                                                       const glm::vec4& camera) const;
 };
@@ -211,12 +223,24 @@ core::Result<std::unique_ptr<Renderer>> Renderer::make(gl::Device& device, const
         return deformation.error();
     }
     auto state =
-        std::make_unique<State>(device, scene, std::move(*uploaded), std::move(*deformation));
+        std::make_unique<State>(device, scene, std::move(*uploaded), std::move(*deformation),
+                                std::make_shared<State::DistantLight>());
     if (!state->observer.empty()) {
         state->probeWarnings.add("material's emission outside [0, 1e9], repaired in light probes",
                                  brokenEmissions(scene));
     }
     return std::unique_ptr<Renderer>(new Renderer(std::move(state)));
+}
+
+core::Result<std::unique_ptr<Renderer>> Renderer::makeBeside(gl::Device& device, const Scene& scene,
+                                                             const Renderer& other) {
+    auto deformation = GpuDeformation::make(device, scene, drawItems(scene));
+    if (!deformation) {
+        return deformation.error();
+    }
+    GpuScene uploaded = GpuScene::makeBeside(device, scene, other.state_->drawer.uploaded());
+    return std::unique_ptr<Renderer>(new Renderer(std::make_unique<State>(
+        device, scene, std::move(uploaded), std::move(*deformation), other.state_->distant)));
 }
 
 void Renderer::setEnvironment(std::string source, lighting::Cubemap base) {
@@ -228,9 +252,6 @@ void Renderer::setEnvironment(std::string source, lighting::Cubemap base) {
 void Renderer::setLights(std::vector<lighting::DayLight> lights,
                          const lighting::RsrmLayout& layout) {
     GpuLights set(std::move(lights), layout, state_->lights.kernels());
-    if (set.shadowCount() != state_->lights.shadowCount()) {
-        state_->shadows = {};
-    }
     set.keep(std::move(state_->lights));
     state_->lights = std::move(set);
     state_->setWritten();
@@ -310,6 +331,10 @@ std::shared_ptr<const plan::EffectPlan> Renderer::State::planFrame(const View& v
     input.alreadyPrepared = environment.prepared();
     input.instancesPerPage = GpuInstances::pageSize(device);
     deformation.describe(scene, drawer.items(), input);
+    if (lights.shadowCount() != shadowCount) {
+        shadows = {};
+        shadowCount = lights.shadowCount();
+    }
     describeLights(scene, drawer.items(), settings.hour, lights, shadows, input);
     input.faceBudget = settings.faceBudget;
     input.probeBudgetMs = settings.probeBudgetMs;
@@ -442,12 +467,24 @@ core::Result<Frame> Renderer::draw(const View& view, const RenderSettings& setti
     });
 }
 
+core::Result<void> Renderer::State::prepareReference(const plan::EffectPlan& plan,
+                                                     const RenderSettings& settings, int taps) {
+    if (!environment.empty()) {
+        if (auto made = environment.prepareReference(device, taps); !made) {
+            return made;
+        }
+    }
+    if (auto made = lights.prepareReference(device, plan, taps); !made) {
+        return made;
+    }
+    return drawer.compileReferences(plan, settings);
+}
+
 core::Result<core::Image> Renderer::redraw(const View& view, const RenderSettings& given,
                                            const std::optional<ReferenceTaps>& taps) {
     State& state = *state_;
     const std::shared_ptr<const plan::EffectPlan> plan = state.planner.last();
     LODESTAR_EXPECT(plan != nullptr, "a frame is drawn before it is drawn again");
-    LODESTAR_EXPECT(!taps || !state.environment.empty(), "a reference is of an environment");
     RenderSettings settings = given;
     settings.samplesPerSide = 1;
     blocks::LodestarFrame block = state.frameBlockFor(settings, view.viewer());
@@ -455,21 +492,23 @@ core::Result<core::Image> Renderer::redraw(const View& view, const RenderSetting
         LODESTAR_EXPECT(taps->first >= 0 && taps->step > 0 && taps->first < taps->total &&
                             taps->total <= 16384,
                         "a pass takes some of up to 16384 taps");
-        if (auto made = state.environment.prepareReference(state.device, taps->total); !made) {
+        if (auto made = state.prepareReference(*plan, settings, taps->total); !made) {
             return made.error();
         }
-        if (auto made = state.drawer.compileReferences(*plan, settings); !made) {
-            return made.error();
+        if (!state.environment.empty()) {
+            state.environment.describeReference(block);
         }
-        state.environment.describeReference(block);
         const int count = (taps->total - taps->first + taps->step - 1) / taps->step;
         block.referenceTaps = glm::vec4(taps->first, taps->step, count, taps->total);
     }
     core::Image picture(settings.width, settings.height, 4);
     const auto drawTile = [&](const blocks::LodestarFrame& tile) {
         state.bindLight(settings, tile);
-        if (taps) {
+        if (taps && !state.environment.empty()) {
             state.environment.bindReference();
+        }
+        if (taps) {
+            state.lights.bindReference();
         }
         state.drawer.drawSurfaces(*plan, settings, state.probes, taps.has_value());
     };

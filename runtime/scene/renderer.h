@@ -90,6 +90,12 @@ public:
     /// Uploads what the scene needs. @errors NoOpenGl if the driver has no memory for it
     [[nodiscard]] static core::Result<std::unique_ptr<Renderer>> make(gl::Device& device,
                                                                       const Scene& scene);
+    /// Another scene under another renderer's light: with its textures, and in every frame with the
+    /// environment and the lights that are set there. Light probes are not shared.
+    /// @param scene its materials name textures of the other's scene; it has no images
+    /// @errors as make
+    [[nodiscard]] static core::Result<std::unique_ptr<Renderer>>
+    makeBeside(gl::Device& device, const Scene& scene, const Renderer& other);
     ~Renderer();
 
     /// Sets the distant environment. @param source its name, for the plan  @param base level 0
@@ -101,8 +107,9 @@ public:
     /// @param layout how their maps are stored
     void setLights(std::vector<lighting::DayLight> lights,
                    const lighting::RsrmLayout& layout = lighting::kRsrm);
-    /// To be called where numbers, colours or estimators of the scene's materials have changed;
-    /// their textures have not.
+    /// To be called where numbers, colours or estimators of the scene's materials have changed, or
+    /// an estimator's choice beside another renderer; textures that they name must have been
+    /// uploaded.
     void materialsChanged();
     /// To be called where the scene's light probes have been set anew or their values have changed.
     /// Those that capture as before keep what they hold; where they stand elsewhere they capture
@@ -142,11 +149,11 @@ public:
                                            float exposure, unsigned framebuffer = 0);
 
     /// What the last frame drew once more, one sample a pixel, in front of nothing: every value 0
-    /// where there is no surface. All is as it was in the frame but for the distant environment.
-    /// @param taps the environment's mean over each lobe by so many taps, as docs/estimators.md
-    /// says of `--error-view`; none: by the settings' estimators
+    /// where there is no surface. All is as it was in the frame but for light from afar.
+    /// @param taps the mean of the environment, skies and suns over each lobe by so many taps, as
+    /// docs/estimators.md says of `--error-view`; none: by the settings' estimators and the maps
     /// @pre the last call was render or draw, with this view and these settings but for
-    /// samplesPerSide; with taps, an environment is set and the plan has draws that it lights
+    /// samplesPerSide
     /// @errors NoOpenGl, Internal, as render
     [[nodiscard]] core::Result<core::Image> redraw(const View& view, const RenderSettings& settings,
                                                    const std::optional<ReferenceTaps>& taps);

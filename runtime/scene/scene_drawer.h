@@ -26,6 +26,7 @@ public:
 
     [[nodiscard]] const std::vector<DrawItem>& items() const { return items_; }
     [[nodiscard]] GpuDeformation& deformation() { return deformation_; }
+    [[nodiscard]] const GpuScene& uploaded() const { return gpu_; }
 
     /// Numbers or colours of the scene's materials have changed.
     void forgetMaterials() { materials_.forget(); }

@@ -71,7 +71,8 @@ LODESTAR_BLOCK(LodestarMaterial)
     vec4 diffuse;  ///< k_L rgb, w Blinn-Phong exponent
     vec4 f0;       ///< F0 rgb, w scale of the exponent texture
     vec4 specular; ///< a dielectric's F0 by index and specular colour, rgb; w specularFactor
-    vec4 more;     ///< x: 1 if the exponent texture holds log2(s + 1)
+    vec4 more;     ///< x: 1 if the exponent texture holds log2(s + 1); without LODESTAR_BLINN_PHONG y, z, w: 1 if
+                   ///< exponent, diffuse, F0 are given all the same
     /// By texture unit k: rows 2k and 2k + 1 are (a, b, c) of u' = a u + b v + c and of v'; w of row
     /// 2k is the UV set, 0 or 1. Without LODESTAR_TEXTURE_TRANSFORM only the set is read.
     vec4 uvRows[2 * LODESTAR_MATERIAL_TEXTURES];

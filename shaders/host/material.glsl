@@ -23,12 +23,17 @@ vec2 uvOf(int unit) {
     return uv;
 }
 
-vec4 baseColorHere() {
-    vec4 color = baseColor * vColor;
+/// The base colour without its factor.
+vec4 paintHere() {
+    vec4 color = vColor;
 #if LODESTAR_BASE_COLOR_TEXTURE
     color *= texture(uBaseColorTexture, uvOf(LODESTAR_BASE_COLOR_UNIT));
 #endif
     return color;
+}
+
+vec4 baseColorHere() {
+    return baseColor * paintHere();
 }
 
 /// The geometric normal that faces the viewer, from screen derivatives of the position.
@@ -98,7 +103,7 @@ float exponentHere(float given, float roughness) {
 #elif LODESTAR_BLINN_PHONG
     return given;
 #else
-    return lodestar_exponentFromRoughness(roughness);
+    return more.y > 0.5 ? given : lodestar_exponentFromRoughness(roughness);
 #endif
 }
 
@@ -131,8 +136,8 @@ LodestarSurface surfaceHere(vec3 view, vec4 color) {
     here.diffuse = diffuse.rgb * color.rgb;
     here.f0 = f0.rgb;
 #else
-    here.diffuse = lodestar_diffuseFromMetallic(color.rgb, metallic);
-    here.f0 = mix(dielectricF0(), color.rgb, metallic);
+    here.diffuse = more.z > 0.5 ? diffuse.rgb * paintHere().rgb : lodestar_diffuseFromMetallic(color.rgb, metallic);
+    here.f0 = more.w > 0.5 ? f0.rgb : mix(dielectricF0(), color.rgb, metallic);
 #endif
     here.exponent = exponentHere(diffuse.w, roughness);
     here.occlusion = 1.0;

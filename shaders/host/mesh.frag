@@ -27,6 +27,9 @@ layout(location = 0) out vec4 oRadiance; // premultiplied by coverage
 #include "lodestar/rsrm.glsl"
 #include "host/rsrm_hooks.glsl"
 #include "host/shadow.glsl"
+#if LODESTAR_REFERENCE
+#include "host/reference_lights.glsl"
+#endif
 #endif
 #if LODESTAR_PROBES
 #include "lodestar/probes.glsl"
@@ -76,8 +79,13 @@ vec3 rsrmLights(LodestarSurface here) {
             visible *= sunShare(hereShares, i);
         }
 #endif
+#if LODESTAR_REFERENCE
+        lambert += visible * referenceLambert(i, here.normal);
+        glossy += visible * referenceGlossy(i, here);
+#else
         lambert += visible * lodestar_rsrmLambert(map, here.normal);
         glossy += visible * lodestar_rsrm(map, lookup.direction, row);
+#endif
     }
     return lodestar_reflected(here, lambert, glossy);
 }

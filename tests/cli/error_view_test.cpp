@@ -28,7 +28,8 @@ std::string square(const TemporaryFolder& folder) {
     return file;
 }
 
-nlohmann::json figuresOf(const TemporaryFolder& folder, const std::string& environment,
+/// @param light --environment or --lighting, and of what
+nlohmann::json figuresOf(const TemporaryFolder& folder, const std::vector<std::string>& light,
                          const std::vector<std::string>& more) {
     std::vector<std::string> call = {"render",
                                      square(folder),
@@ -40,8 +41,6 @@ nlohmann::json figuresOf(const TemporaryFolder& folder, const std::string& envir
                                      "0,-2.6,1",
                                      "--target",
                                      "0,0,0",
-                                     "--environment",
-                                     environment,
                                      "--environment-width",
                                      "64",
                                      "--override-material",
@@ -50,6 +49,7 @@ nlohmann::json figuresOf(const TemporaryFolder& folder, const std::string& envir
                                      folder.file("error.png"),
                                      "--stats",
                                      folder.file("stats.json")};
+    call.insert(call.end(), light.begin(), light.end());
     call.insert(call.end(), more.begin(), more.end());
     const RunResult run = runLodestar(call);
     EXPECT_EQ(run.status, 0) << run.err;
@@ -58,6 +58,11 @@ nlohmann::json figuresOf(const TemporaryFolder& folder, const std::string& envir
     std::ifstream file(folder.file("stats.json"));
     EXPECT_EQ(nlohmann::json::parse(file).at("error_view"), printed);
     return printed;
+}
+
+nlohmann::json figuresOf(const TemporaryFolder& folder, const std::string& environment,
+                         const std::vector<std::string>& more) {
+    return figuresOf(folder, std::vector<std::string>{"--environment", environment}, more);
 }
 
 TEST(ErrorView, FiguresArePrintedAndKept) {
@@ -99,6 +104,28 @@ TEST(ErrorView, APublishedFetchErrsMoreThanTheDefault) {
     const double mip =
         figuresOf(folder, sky, {"--error-taps", "256", "--specular", "mip"}).at("mean");
     EXPECT_GT(mip, 1.5 * tent);
+}
+
+// Where a document's lights alone shine the published maps, whose exponent is another lobe's and
+// whose columns are coarse, err far more than the fitted ones.
+TEST(ErrorView, SkiesAndSunsAreComparedToo) {
+    const TemporaryFolder folder;
+    const std::string document = folder.file("day.lodestar.json");
+    std::ofstream(document) << R"({"lodestar": 1, "lights": [
+        {"kind": "sky", "keys": [{"hour": 12, "gradient": {"stops": [
+            {"at": 90, "color": [0.1, 0.2, 0.5]}, {"at": 0, "color": [0.9, 1, 1.1]},
+            {"at": 0, "color": [0.2, 0.15, 0.1]}, {"at": -90, "color": [0.05, 0.05, 0.05]}]}}]},
+        {"kind": "sun", "axis": [0, 2.6, 1], "keys": [{"hour": 12, "gradient": {"stops": [
+            {"at": 0, "color": [1, 0.9, 0.7], "ev": 12}, {"at": 0.5, "color": [1, 0.9, 0.7], "ev": 12},
+            {"at": 0.5, "color": [0, 0, 0]}]}}]}]})";
+    const std::vector<std::string> light = {"--lighting", document, "--hour", "12"};
+    const nlohmann::json own = figuresOf(folder, light, {"--error-taps", "256"});
+    EXPECT_GT(own.at("pixels"), 200);
+    EXPECT_GT(own.at("mean"), 0.0);
+    EXPECT_LT(own.at("reference_spread"), 0.01);
+    const nlohmann::json published =
+        figuresOf(folder, light, {"--error-taps", "256", "--specular", "rsrm-published"});
+    EXPECT_GT(published.at("mean"), 2.0 * own.at("mean").get<double>());
 }
 
 // A constant map is every lobe's mean, of the frame and of the reference but for what its two ways

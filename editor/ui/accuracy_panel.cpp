@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+//
+// What accuracy costs: a plot of error against time with logarithmic axes, and a table beside it.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "ui/fields.h"
+#include "ui/panels.h"
+#include "ui/theme.h"
+
+namespace lodestar::ui {
+namespace {
+
+std::string formatted(const char* format, double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+/// A logarithmic axis that holds all its values with a margin.
+class LogAxis {
+public:
+    void add(double value) {
+        if (value > 0.0 && std::isfinite(value)) {
+            low_ = std::min(low_, std::log10(value));
+            high_ = std::max(high_, std::log10(value));
+        }
+    }
+    void settle() {
+        if (low_ > high_) {
+            low_ = -2.0;
+            high_ = 0.0;
+        }
+        low_ -= 0.15;
+        high_ += 0.15;
+        const double middle = 0.5 * (low_ + high_);
+        low_ = std::min(low_, middle - 0.5); // a decade at least
+        high_ = std::max(high_, middle + 0.5);
+    }
+    /// [0, 1]
+    [[nodiscard]] float place(double value) const {
+        const double at = value > 0.0 ? std::log10(value) : low_;
+        return static_cast<float>(std::clamp((at - low_) / (high_ - low_), 0.0, 1.0));
+    }
+    /// 1, 2 and 5 times the powers of ten in range, or the powers alone where there are many.
+    [[nodiscard]] std::vector<double> ticks() const {
+        std::vector<double> all;
+        for (int power = static_cast<int>(std::floor(low_)); power <= std::ceil(high_); ++power) {
+            for (const double step : {1.0, 2.0, 5.0}) {
+                const double value = step * std::pow(10.0, power);
+                const bool shown = step == 1.0 || high_ - low_ < 2.0;
+                if (shown && std::log10(value) > low_ && std::log10(value) < high_) {
+                    all.push_back(value);
+                }
+            }
+        }
+        return all;
+    }
+
+private:
+    double low_ = 1e9, high_ = -1e9;
+};
+
+/// The plot's frame: where its axes lie on the display.
+struct Frame {
+    ImVec2 low, high; ///< of the plotted area
+    LogAxis ms, error;
+    [[nodiscard]] ImVec2 at(double timeMs, double relative) const {
+        return {low.x + ms.place(timeMs) * (high.x - low.x),
+                high.y - error.place(relative) * (high.y - low.y)};
+    }
+};
+
+void drawAxes(ImDrawList& list, const Frame& frame) {
+    const ImU32 line = ImGui::GetColorU32(ImGuiCol_Border);
+    const ImU32 text = ImGui::GetColorU32(kDimText);
+    const float em = ImGui::GetFontSize();
+    for (const double ms : frame.ms.ticks()) {
+        const float x = frame.low.x + frame.ms.place(ms) * (frame.high.x - frame.low.x);
+        list.AddLine({x, frame.low.y}, {x, frame.high.y}, line);
+        const std::string label = formatted("%g", ms);
+        list.AddText({x - 0.5f * ImGui::CalcTextSize(label.c_str()).x, frame.high.y + 0.1f * em},
+                     text, label.c_str());
+    }
+    for (const double error : frame.error.ticks()) {
+        const float y = frame.high.y - frame.error.place(error) * (frame.high.y - frame.low.y);
+        list.AddLine({frame.low.x, y}, {frame.high.x, y}, line);
+        const std::string label = formatted("%g", 100.0 * error) + " %";
+        list.AddText(
+            {frame.low.x - ImGui::CalcTextSize(label.c_str()).x - 0.4f * em, y - 0.5f * em}, text,
+            label.c_str());
+    }
+    list.AddText({frame.high.x + 0.4f * em, frame.high.y - 0.5f * em}, text, "ms");
+}
+
+bool measured(const EstimateLine& line) {
+    return line.error && line.ms;
+}
+
+/// The line through what nothing beats, from the fastest on.
+void drawFront(ImDrawList& list, const Frame& frame, std::vector<const EstimateLine*> front) {
+    std::sort(front.begin(), front.end(),
+              [](const EstimateLine* a, const EstimateLine* b) { return *a->ms < *b->ms; });
+    const ImU32 color = ImGui::GetColorU32(ImVec4(kAccent.x, kAccent.y, kAccent.z, 0.6f));
+    for (std::size_t i = 0; i + 1 < front.size(); ++i) {
+        const ImVec2 from = frame.at(*front[i]->ms, *front[i]->error);
+        const ImVec2 to = frame.at(*front[i + 1]->ms, *front[i + 1]->error);
+        list.AddLine(from, {to.x, from.y}, color, 1.5f); // nothing lies below and left of it
+        list.AddLine({to.x, from.y}, to, color, 1.5f);
+    }
+}
+
+void drawPlot(Studio& studio, float width) {
+    const std::vector<EstimateLine>& lines = studio.around.accuracy.lines;
+    const float em = ImGui::GetFontSize();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float height = std::max(ImGui::GetContentRegionAvail().y, 6.0f * em);
+    ImGui::Dummy({width, height});
+    studio.mark("accuracy plot");
+    Frame frame;
+    frame.low = {corner.x + 3.6f * em, corner.y + 0.4f * em};
+    frame.high = {corner.x + width - 2.2f * em, corner.y + height - 1.5f * em};
+    std::vector<const EstimateLine*> front;
+    for (const EstimateLine& line : lines) {
+        if (measured(line)) {
+            frame.ms.add(*line.ms);
+            frame.error.add(*line.error);
+            if (line.front) {
+                front.push_back(&line);
+            }
+        }
+    }
+    frame.ms.settle();
+    frame.error.settle();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    drawAxes(list, frame);
+    drawFront(list, frame, std::move(front));
+    for (const EstimateLine& line : lines) {
+        if (!measured(line)) {
+            continue;
+        }
+        const ImVec2 at = frame.at(*line.ms, *line.error);
+        list.AddCircleFilled(at, 0.28f * em,
+                             ImGui::GetColorU32(line.used    ? kAccent
+                                                : line.front ? kText
+                                                             : kDimText));
+        if (line.used) {
+            list.AddCircle(at, 0.5f * em, ImGui::GetColorU32(kAccent), 0, 1.5f);
+        }
+        const float wide = ImGui::CalcTextSize(line.name.c_str()).x;
+        const bool left = at.x + 0.6f * em + wide > frame.high.x;
+        list.AddText({left ? at.x - 0.6f * em - wide : at.x + 0.6f * em, at.y - 1.05f * em},
+                     ImGui::GetColorU32(line.used ? kAccent : kDimText), line.name.c_str());
+    }
+}
+
+void drawNumbers(Studio& studio) {
+    constexpr ImGuiTableFlags kFlags =
+        ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
+    if (!ImGui::BeginTable("estimators", 5, kFlags)) {
+        return;
+    }
+    for (const char* column : {"estimator", "error", "worst", "ms/Mpx", "fetches"}) {
+        ImGui::TableSetupColumn(column);
+    }
+    ImGui::TableSetupScrollFreeze(0, 1);
+    ImGui::TableHeadersRow();
+    for (const EstimateLine& line : studio.around.accuracy.lines) {
+        const ImVec4 color = line.used ? kAccent : kText;
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        ImGui::TextColored(color, "%s%s%s", line.name.c_str(), line.chosen.empty() ? "" : " = ",
+                           line.chosen.c_str());
+        for (const std::string& text :
+             {percentText(line.error), percentText(line.worst), millisecondsText(line.ms),
+              line.fetches > 0 ? std::to_string(line.fetches) : std::string("\xe2\x80\x93")}) {
+            ImGui::TableNextColumn();
+            ImGui::TextColored(color, "%s", text.c_str());
+        }
+    }
+    ImGui::EndTable();
+}
+
+} // namespace
+
+std::string percentText(const std::optional<double>& error) {
+    return error ? formatted("%.2g", 100.0 * *error) + " %" : "\xe2\x80\x93";
+}
+
+std::string millisecondsText(const std::optional<double>& ms) {
+    return ms ? formatted("%.3g", *ms) + " ms" : "\xe2\x80\x93";
+}
+
+void drawAccuracyPanel(Studio& studio) {
+    const AccuracyView& accuracy = studio.around.accuracy;
+    if (accuracy.material.empty()) {
+        ImGui::TextColored(kDimText,
+                           "Select a material: what each estimator errs and costs on it.");
+        return;
+    }
+    ImGui::TextColored(kDimText, "%s, Phong exponent %.4g%s", accuracy.material.c_str(),
+                       accuracy.exponent, accuracy.selectable ? "" : ", maps of skies and suns");
+    if (accuracy.progress < 1.0) {
+        ImGui::SameLine();
+        ImGui::TextColored(kAccent, "measuring: %.0f %%", 100.0 * accuracy.progress);
+    }
+    const float width = 0.5f * ImGui::GetContentRegionAvail().x;
+    drawPlot(studio, width);
+    ImGui::SameLine();
+    drawNumbers(studio);
+}
+
+void drawMapRowsPanel(Studio& studio) {
+    studio.view.mapRows = true;
+    const std::vector<MapRow>& rows = studio.around.accuracy.rows;
+    if (rows.empty()) {
+        ImGui::TextColored(kDimText, "%s",
+                           studio.around.accuracy.material.empty()
+                               ? "Select a material: the rows of the maps are measured."
+                               : "Rows are of the maps of skies and suns, which do not shine alone "
+                                 "here.");
+        return;
+    }
+    const float em = ImGui::GetFontSize();
+    ImGui::TextColored(kDimText, "rows of the maps by Phong exponent; bars: error at the row, and "
+                                 "half way to the next");
+    if (studio.around.accuracy.progress < 1.0) {
+        ImGui::SameLine();
+        ImGui::TextColored(kAccent, "%.0f %%", 100.0 * studio.around.accuracy.progress);
+    }
+    double most = 1e-4;
+    for (const MapRow& row : rows) {
+        most = std::max({most, row.error.value_or(0.0), row.betweenError.value_or(0.0)});
+    }
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    const float height = std::max(room.y, 5.0f * em);
+    ImGui::Dummy({room.x, height});
+    studio.mark("map rows");
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float left = corner.x + 4.0f * em;
+    const float low = corner.y + height - 1.4f * em;
+    const float tall = height - 2.0f * em;
+    const float step = (corner.x + room.x - left) / static_cast<float>(rows.size());
+    list.AddText({corner.x, low - tall - 0.4f * em}, ImGui::GetColorU32(kDimText),
+                 percentText(most).c_str());
+    list.AddLine({left, low}, {corner.x + room.x, low}, ImGui::GetColorU32(ImGuiCol_Border));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const float x = left + step * static_cast<float>(i);
+        const auto bar = [&](const std::optional<double>& error, float from, const ImVec4& color) {
+            const float part = static_cast<float>(error.value_or(0.0) / most);
+            list.AddRectFilled({x + from * step, low - part * tall},
+                               {x + (from + 0.38f) * step, low}, ImGui::GetColorU32(color));
+        };
+        bar(rows[i].error, 0.05f, kAccent);
+        bar(rows[i].betweenError, 0.5f, kDimText);
+        if (i % 4 == 0 || i + 1 == rows.size()) {
+            const std::string text = formatted("%.3g", rows[i].exponent);
+            list.AddText({x, low + 0.1f * em}, ImGui::GetColorU32(kDimText), text.c_str());
+        }
+        if (ImGui::IsMouseHoveringRect({x, low - tall}, {x + step, low})) {
+            ImGui::SetTooltip("exponent %.4g: %s\nexponent %.4g: %s", rows[i].exponent,
+                              percentText(rows[i].error).c_str(), rows[i].between,
+                              percentText(rows[i].betweenError).c_str());
+        }
+    }
+}
+
+} // namespace lodestar::ui
