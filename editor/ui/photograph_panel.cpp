@@ -250,8 +250,8 @@ void PhotographPanel::drawLights(Studio& studio) {
     if (fit.takesSun) {
         const glm::dvec2 degrees = degreesOfAxis(fit.sun.value_or(glm::dvec3(0.0, 1.0, 0.0)));
         ImGui::SameLine();
-        fit.sun ? ImGui::TextColored(kDimText, "found %.1f\xc2\xb0 high, to %.2g\xc2\xb0 around",
-                                     degrees.y, fit.sunRadius)
+        fit.sun ? ImGui::TextColored(kDimText, "%.1f\xc2\xb0 high, radius %.2g\xc2\xb0", degrees.y,
+                                     fit.sunRadius)
                 : ImGui::TextColored(kDimText, "none was found");
     }
     label("asymmetry");

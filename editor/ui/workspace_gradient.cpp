@@ -2,7 +2,10 @@
 //
 // The workspace's answers to the keys of the gradient and of what is selected.
 #include <algorithm>
+#include <cctype>
+#include <charconv>
 
+#include "lodestar/display.glsl"
 #include "model/clipboard.h"
 #include "model/ramp.h"
 #include "ui/actions.h"
@@ -92,8 +95,30 @@ bool copySelected(Studio& studio) {
     return true;
 }
 
+/// "#rrggbb", sRGB, as linear colour.
+std::optional<glm::dvec3> colorOfText(std::string_view text) {
+    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) {
+        text.remove_suffix(1);
+    }
+    unsigned int bytes = 0;
+    if (text.size() != 7 || text.front() != '#' ||
+        std::from_chars(text.data() + 1, text.data() + 7, bytes, 16).ptr != text.data() + 7) {
+        return std::nullopt;
+    }
+    glm::dvec3 color;
+    for (int c = 0; c < 3; ++c) {
+        color[c] = static_cast<double>(shader::lodestar_linearFromSrgb(
+            static_cast<float>((bytes >> (16 - 8 * c)) & 0xff) / 255.0f));
+    }
+    return color;
+}
+
 void paste(Studio& studio) {
     const char* text = ImGui::GetClipboardText();
+    if (const auto color = colorOfText(text != nullptr ? text : "")) {
+        studio.give(*color);
+        return;
+    }
     const model::PasteTarget target{studio.chosenKey(), studio.chosenLight(), studio.view.hour,
                                     studio.model.selection().materials};
     auto command = model::pasteCommand(studio.model, text != nullptr ? text : "", target);

@@ -94,6 +94,7 @@ protected:
         send(platform::KeyEvent{key, false, false, modifiers});
         settle();
     }
+    void setClipboard(const std::string& text) { clipboard_ = text; }
     void control(platform::Key key, bool shift = false) {
         press(key, {shift, true, false});
         send(platform::KeyEvent{platform::Key::Control, false, false, {}});

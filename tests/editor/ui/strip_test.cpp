@@ -134,6 +134,24 @@ TEST_F(StripTest, AColourIsDroppedOnTheStripAndOnAHandle) {
     EXPECT_EQ(model().stop(first)->stop.color, glm::dvec3(1.0, 0.0, 0.5));
 }
 
+TEST_F(StripTest, AColourOfTextIsPastedIntoTheSelectedStops) {
+    click(onRamp(0.25f));
+    const model::Id stop = selected();
+    setClipboard("#ff8000\n");
+    control(Key::V);
+    const glm::dvec3 color = lighting::radianceOf(model().stop(stop)->stop);
+    // IEC 61966-2-1: 128/255 is 0.2158605 linear; 1e-6 is above floats' rounding.
+    EXPECT_NEAR(color.r, 1.0, 1e-6);
+    EXPECT_NEAR(color.g, 0.2158605, 1e-6);
+    EXPECT_EQ(color.b, 0.0);
+    const std::string before = document::writeDocument(model().document());
+    for (const char* text : {"#ff80", "#gg8000", "ff8000", "#-1-1-1", ""}) {
+        setClipboard(text);
+        control(Key::V);
+        EXPECT_EQ(document::writeDocument(model().document()), before) << text;
+    }
+}
+
 TEST_F(StripTest, ResetGivesANewLightsGradient) {
     click(mark("Reset").center());
     EXPECT_EQ(stops().size(), 2u);
