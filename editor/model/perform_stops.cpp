@@ -205,7 +205,9 @@ Performed performOn(State& state, const DistributeStops& command) {
     const double last = stops.back().stop.at;
     for (std::size_t i = 1; i + 1 < stops.size(); ++i) {
         const double t = static_cast<double>(i) / static_cast<double>(stops.size() - 1);
-        stops[i].stop.at = plain((1.0 - t) * first + t * last);
+        // This way rounding keeps their order, and lets stops of one place lie.
+        stops[i].stop.at = plain(
+            std::clamp(first + t * (last - first), std::min(first, last), std::max(first, last)));
     }
     return std::vector<Id>();
 }

@@ -239,5 +239,18 @@ TEST(Ramp, SnapsToTheNearestWithinReach) {
     EXPECT_TRUE(std::isnan(snapped(std::nan(""), {2.5, true, true, 2.0}, others)));
 }
 
+// The place is one where the mean of it and itself rounds to its neighbour.
+TEST(DistributeStopsCommand, KeepsStopsOfOnePlaceWhereTheyAre) {
+    const double at = 89.19999998807907;
+    Model model = modelOf(lighting::LightKind::Sky, {{at, {1, 1, 1}, 0},
+                                                     {at, {0, 1, 1}, 0},
+                                                     {at, {1, 0, 1}, 0},
+                                                     {at, {1, 1, 0}, 0},
+                                                     {at, {0, 0, 1}, 0},
+                                                     {at, {0, 1, 0}, 0}});
+    ASSERT_TRUE(model.execute(DistributeStops{keyId(model)}));
+    EXPECT_EQ(placesOf(model), std::vector<double>(6, at));
+}
+
 } // namespace
 } // namespace lodestar::model
