@@ -52,6 +52,7 @@ struct KeyColumn {
 
 std::vector<KeyColumn> columnsOf(const document::Light& light) {
     std::vector<double> at;
+    at.reserve(kRows);
     for (int row = 0; row < kRows; ++row) {
         at.push_back(atOf((row + 0.5) / kRows, light.kind));
     }
@@ -82,6 +83,7 @@ std::vector<ImU32> colorsOf(const document::Light& light, bool falseColor, doubl
         return colors;
     }
     std::vector<double> hours;
+    hours.reserve(keys.size());
     for (const KeyColumn& key : keys) {
         hours.push_back(key.hour);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "platform/window.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -170,6 +171,31 @@ void Window::State::hook() {
                                [](GLFWwindow* w) { of(w).events.emplace_back(CloseEvent{}); });
 }
 
+namespace {
+
+/// Makes a window that is not shown yet no larger than the primary display's work area, its frame
+/// included.
+void fit(GLFWwindow* window) {
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    if (monitor == nullptr) {
+        return;
+    }
+    std::array<int, 4> area{};  // x, y, width, height
+    std::array<int, 4> frame{}; // left, top, right, bottom
+    std::array<int, 2> size{};
+    glfwGetMonitorWorkarea(monitor, &area[0], &area[1], &area[2], &area[3]);
+    glfwGetWindowFrameSize(window, &frame[0], &frame[1], &frame[2], &frame[3]);
+    glfwGetWindowSize(window, &size[0], &size[1]);
+    const int width = std::min(size[0], std::max(area[2] - frame[0] - frame[2], 1));
+    const int height = std::min(size[1], std::max(area[3] - frame[1] - frame[3], 1));
+    if (area[2] > 0 && area[3] > 0 && (width < size[0] || height < size[1])) {
+        glfwSetWindowSize(window, width, height);
+        glfwSetWindowPos(window, area[0] + frame[0], area[1] + frame[1]);
+    }
+}
+
+} // namespace
+
 Window::Window(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Window::Window(Window&& other) noexcept = default;
 Window& Window::operator=(Window&& other) noexcept = default;
@@ -192,6 +218,7 @@ core::Result<Window> Window::create(const std::string& title, int width, int hei
         glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, debug);
         glfwWindowHint(GLFW_DEPTH_BITS, 0);
         glfwWindowHint(GLFW_STENCIL_BITS, 0);
+        glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE); // until it fits
         glfwWindowHintString(GLFW_X11_CLASS_NAME, "lodestar");
         glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "lodestar");
         state->window = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
@@ -202,6 +229,8 @@ core::Result<Window> Window::create(const std::string& title, int width, int hei
     if (state->window == nullptr) {
         return noOpenGl("asked the display for a window with an OpenGL 3.3 core context");
     }
+    fit(state->window);
+    glfwShowWindow(state->window);
     glfwMakeContextCurrent(state->window);
     if (glGetString(GL_VERSION) == nullptr || epoxy_gl_version() < 33) {
         return noOpenGl("the display's OpenGL is older than 3.3");

@@ -70,13 +70,14 @@ inline bool soon(const std::function<bool()>& holds, double seconds = 120.0) {
 /// A virtual X server with a window manager, for the life of the object.
 class VirtualDisplay {
 public:
-    VirtualDisplay() {
+    /// @param size WIDTHxHEIGHT of the screen
+    explicit VirtualDisplay(const std::string& size = "1440x900") {
         int ends[2] = {-1, -1};
         if (pipe(ends) != 0) {
             return;
         }
         server_ = start({"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0",
-                         "1440x900x24", "-nolisten", "tcp"});
+                         size + "x24", "-nolisten", "tcp"});
         close(ends[1]);
         char number[16] = {};
         if (read(ends[0], number, sizeof number - 1) > 0) {

@@ -1,187 +1,281 @@
 // SPDX-License-Identifier: MIT
 //
-// `lodestar edit` in a real window on a virtual display: a user's way through it, each step seen in
-// the part of the window where it must be.
+// A user's way through the editor, each task in at most eight actions: by injected events in every
+// run, and beside that in a real window on a virtual display, where each step must be seen in the
+// part of the window that it changes. What both showed is left in editor-screenshots/.
 #include <algorithm>
-#include <array>
-#include <filesystem>
 #include <fstream>
-#include <future>
-
-#include <gtest/gtest.h>
+#include <optional>
 
 #include "core/tally.h"
+#include "editor/ui/editor_fixture.h"
+#include "editor/ui/real_window.h"
 #include "io/document_file.h"
-#include "support/picture.h"
-#include "support/run.h"
-#include "support/virtual_display.h"
 
 namespace lodestar::testing {
 namespace {
 
-constexpr int kWidth = 1200, kHeight = 760;
+using platform::Key;
+
 constexpr double kSteps = 2.0 / 255.0; ///< one step of rounding on either side
+constexpr int kMostActions = 8;
 
-/// Places of the layout at that size, in pixels: what editor_ui_test finds by name.
-constexpr std::array<int, 4> kViewport{250, 30, 560, 410};
-constexpr std::array<int, 4> kStrip{835, 145, 354, 80};
-
-class EditorWindow : public ::testing::Test {
+/// What is done is done to an editor in this process, whose marks tell where things are, and at the
+/// same places of the window where there is one.
+class Tasks : public EditorTest {
 protected:
     void SetUp() override {
-        if (const std::string missing = missingPrograms(); !missing.empty()) {
-            GTEST_SKIP() << missing;
+        EditorTest::SetUp();
+        if (IsSkipped() || HasFatalFailure()) {
+            return;
         }
-        display_ = std::make_unique<VirtualDisplay>();
-        ASSERT_TRUE(display_->isReady()) << "Xvfb or openbox did not start";
-        run();
+        std::filesystem::create_directories("editor-screenshots");
+        std::filesystem::copy_file(
+            std::string(LODESTAR_TEST_DATA) + "/../samples/skies/clear.lodestar.json", file_);
     }
     void TearDown() override {
-        display_.reset(); // whoever still shows a window there ends
-        if (run_.valid()) {
-            run_.wait();
-        }
-    }
-    void run() {
-        run_ = std::async(std::launch::async, [this] {
-            return runLodestar({"edit", "--lighting", file_}, {"DISPLAY=" + display_->name()},
-                               400.0);
-        });
-        ASSERT_TRUE(soon([this] {
-            window_ = output("xdotool search --onlyvisible --class lodestar");
-            window_ = window_.substr(0, window_.find('\n'));
-            return !window_.empty();
-        })) << "no window";
-        output("xdotool windowsize --sync " + window_ + " " + std::to_string(kWidth) + " " +
-               std::to_string(kHeight));
-        ASSERT_TRUE(soon([this] {
-            const core::Image now = shown();
-            return now.width() == kWidth && now.height() == kHeight && isLit(now);
-        })) << "nothing is shown";
-        rest();
-    }
-    /// Waits until two pictures in a row are the same.
-    void rest() {
-        std::this_thread::sleep_for(std::chrono::milliseconds(200));
-        core::Image last = shown();
-        EXPECT_TRUE(soon([&] {
-            std::this_thread::sleep_for(std::chrono::milliseconds(300));
-            core::Image now = shown();
-            const bool same = now.pixels() == last.pixels();
-            last = std::move(now);
-            return same;
-        })) << "an editor at rest goes on drawing";
-    }
-    /// Whether some of the viewport is bright.
-    static bool isLit(const core::Image& image) {
-        const core::Image view = part(image, kViewport);
-        return std::any_of(view.pixels().begin(), view.pixels().end(),
-                           [](float value) { return value > 0.5f; });
-    }
-    void key(const std::string& name) {
-        // As a keyboard's, not sent to the window: the modifiers are then the server's.
-        output("xdotool windowactivate --sync " + window_ + " key --delay 100 " + name);
-        rest();
-    }
-    void click(int x, int y) {
-        output("xdotool mousemove --window " + window_ + " " + std::to_string(x) + " " +
-               std::to_string(y) + " sleep 0.2 mousedown 1 sleep 0.2 mouseup 1");
-        rest();
-    }
-    void drag(int x0, int y0, int x1, int y1) {
-        const auto at = [&](int x, int y) {
-            return "mousemove --window " + window_ + " " + std::to_string(x) + " " +
-                   std::to_string(y) + " sleep 0.2 ";
-        };
-        output("xdotool " + at(x0, y0) + "mousedown 1 sleep 0.2 " +
-               at((x0 + x1) / 2, (y0 + y1) / 2) + at(x1, y1) + "mouseup 1");
-        rest();
-    }
-    /// Where LODESTAR_SCREENSHOTS names a folder, what is shown is left there to be looked at.
-    void keep(const std::string& name) {
-        if (const char* folder = std::getenv("LODESTAR_SCREENSHOTS")) {
-            output("import -window " + window_ + " " + std::string(folder) + "/window-" + name +
-                   ".png");
-        }
-    }
-    core::Image shown() {
-        const std::string path = folder_.file("shown.png");
-        std::filesystem::remove(path);
-        output("import -window " + window_ + " -depth 8 png24:" + path);
-        return std::filesystem::exists(path) ? readPicture(path) : core::Image();
-    }
-    static core::Image part(const core::Image& whole, const std::array<int, 4>& place) {
-        core::Image cut(place[2], place[3], whole.channels());
-        for (int y = 0; y < cut.height() && place[1] + y < whole.height(); ++y) {
-            for (int x = 0; x < cut.width() && place[0] + x < whole.width(); ++x) {
-                std::copy_n(whole.at(place[0] + x, place[1] + y), whole.channels(), cut.at(x, y));
-            }
-        }
-        return cut;
-    }
-    /// The share of a part that differs from an earlier picture.
-    double changed(const core::Image& before, const std::array<int, 4>& place) {
-        return compare(part(shown(), place), part(before, place), kSteps).failingFraction;
-    }
-    document::Document saved() {
-        core::Tally warnings;
-        auto document = io::loadDocument(file_, warnings);
-        EXPECT_TRUE(document.ok()) << (document ? "" : document.error().message());
-        return document ? *document : document::Document{};
+        window_.reset();
+        EditorTest::TearDown();
     }
 
-    TemporaryFolder folder_;
+    void task(const char* name) {
+        EXPECT_LE(actions_, kMostActions) << task_;
+        task_ = name;
+        actions_ = 0;
+        remember();
+    }
+    /// What a step showed, and where it must have changed something.
+    void look(const std::string& place, double least) {
+        const ui::Mark part = mark(place);
+        const core::Image now = whole();
+        EXPECT_GT(compare(EditorTest::part(now, part), EditorTest::part(before_, part), kSteps)
+                      .failingFraction,
+                  least)
+            << task_ << ": " << place << " has not changed";
+        save(now, "injected");
+        if (window_) {
+            const core::Image seen = window_->shown();
+            save(seen, "window");
+            EXPECT_GT(
+                compare(EditorTest::part(seen, part), EditorTest::part(seenBefore_, part), kSteps)
+                    .failingFraction,
+                least)
+                << task_ << ": " << place << " has not changed in the window";
+        }
+    }
+    void remember() {
+        before_ = whole();
+        if (window_) {
+            seenBefore_ = window_->shown();
+        }
+    }
+    /// The share of a place that the window shows otherwise than it once did.
+    [[nodiscard]] double changedSince(const core::Image& once, const core::Image& now,
+                                      const std::string& place) const {
+        return compare(part(now, mark(place)), part(once, mark(place)), kSteps).failingFraction;
+    }
+
+    void open() {
+        ++actions_;
+        app::EditorOptions options;
+        options.lighting = file_;
+        EditorTest::open(options);
+        if (window_) {
+            ASSERT_TRUE(window_->open()) << "no window";
+            ASSERT_TRUE(window_->resize(kWidth, kHeight)) << "nothing is shown";
+            window_->rest();
+        }
+    }
+    /// A real pointer is at whole pixels.
+    static ImVec2 rounded(const ImVec2& place) {
+        return {std::round(place.x), std::round(place.y)};
+    }
+    void click(const ImVec2& exact) {
+        const ImVec2 place = rounded(exact);
+        ++actions_;
+        EditorTest::click(place);
+        if (window_) {
+            window_->click(place.x, place.y);
+        }
+    }
+    void drag(const ImVec2& exactFrom, const ImVec2& exactTo) {
+        const ImVec2 from = rounded(exactFrom);
+        const ImVec2 to = rounded(exactTo);
+        ++actions_;
+        EditorTest::drag(from, to);
+        if (window_) {
+            window_->drag(from.x, from.y, to.x, to.y);
+        }
+    }
+    void key(Key key, const std::string& name, platform::Modifiers modifiers = {}) {
+        ++actions_;
+        press(key, modifiers);
+        if (window_) {
+            window_->key(name);
+        }
+    }
+    void number(const std::string& field, const std::string& text) {
+        actions_ += 3; // Ctrl + click, typing, Enter
+        const ImVec2 place = mark(field).center();
+        typeInto(field, text);
+        if (window_) {
+            window_->click(place.x, place.y, "ctrl");
+            window_->type(text);
+            window_->key("Return");
+        }
+    }
+    /// The program ends, and what it said is nothing.
+    void close() {
+        send(platform::CloseEvent{});
+        EXPECT_TRUE(editor_->closing());
+        if (window_) {
+            const RunResult ended = window_->close();
+            EXPECT_EQ(ended.status, 0) << ended.err;
+            EXPECT_EQ(ended.err, "");
+        }
+    }
+
+    void doAll();
+    void editAll();
+
+    core::Image whole() {
+        (void)viewport(); // stands still
+        return shown();
+    }
+    void save(core::Image picture, const std::string& kind) {
+        for (std::size_t i = 3; picture.channels() == 4 && i < picture.pixels().size(); i += 4) {
+            picture.pixels()[i] = 1.0f;
+        }
+        std::string name = task_;
+        std::replace(name.begin(), name.end(), ' ', '-');
+        EXPECT_TRUE(
+            io::writeImage("editor-screenshots/" + name + "-" + kind + ".png", picture).ok());
+    }
+    [[nodiscard]] std::string contents() const {
+        std::ifstream file(file_, std::ios::binary);
+        return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    }
+
     std::string file_ = folder_.file("sky.lodestar.json");
-    std::unique_ptr<VirtualDisplay> display_;
-    std::string window_;
-    std::future<RunResult> run_;
+    std::optional<RealWindow> window_;
+    core::Image before_, seenBefore_;
+    std::string task_ = "0 nothing";
+    int actions_ = 0;
 };
 
-TEST_F(EditorWindow, PaintsUndoesSavesAndCloses) {
-    const core::Image first = shown();
-    keep("1-first");
-    click(kStrip[0] + 88, kStrip[1] + 20); // a stop at 45 degrees
-    EXPECT_GT(changed(first, kStrip), 0.0005) << "no stop was added";
+void Tasks::editAll() {
+    task("2 add a stop");
+    click(onRamp(0.22f));
+    look("ramp", 0.0); // the line over the new stop's place
+    ASSERT_EQ(model().undoCount(), 1U);
 
-    const core::Image added = shown();
-    key("b");
-    drag(kStrip[0] + 30, kStrip[1] + 20, kStrip[0] + 130, kStrip[1] + 20); // white over the sky
-    EXPECT_GT(changed(added, kStrip), 0.08) << "the strip was not painted";
-    EXPECT_GT(changed(added, kViewport), 0.2) << "the scene does not show what was painted";
+    task("3 drag it");
+    const float handles = onRamp(0.0f, 1.25f).y;
+    drag({onRamp(0.22f).x, handles}, {onRamp(0.36f).x, handles});
+    look("ramp", 0.02);
+    ASSERT_EQ(model().undoCount(), 2U);
 
-    keep("2-painted");
-    key("ctrl+z");
-    // A picture that has just changed may have fewer samples at its edges.
-    EXPECT_LT(changed(added, kViewport), 0.03) << "undo does not lead back";
-    key("ctrl+shift+z");
-    EXPECT_GT(changed(added, kViewport), 0.2) << "redo does not lead there";
+    task("4 paint a stroke");
+    key(Key::B, "b");
+    drag(onRamp(0.08f), onRamp(0.3f));
+    key(Key::B, "b");
+    look("viewport", 0.2);
+    look("ramp", 0.08);
+    ASSERT_EQ(model().undoName(), "Paint");
 
-    const core::Image painted = shown();
-    drag(400, 515, 330, 515); // the day, to the morning
-    EXPECT_GT(changed(painted, kViewport), 0.2) << "another hour looks the same";
-    drag(330, 515, 662, 515);
+    task("5 type an exponent");
+    click(mark("material 3").center());
+    const std::string name = model().selection().materials.at(0);
+    number("exponent", "12");
+    look("viewport", 0.001);
+    EXPECT_DOUBLE_EQ(*model().document().materials.at(name).exponent, 12.0);
+    ASSERT_EQ(model().undoCount(), 4U);
 
-    EXPECT_FALSE(std::filesystem::exists(file_));
-    key("ctrl+s");
-    ASSERT_TRUE(soon([this] { return std::filesystem::exists(file_); })) << "not saved";
-    const document::Document document = saved();
-    ASSERT_EQ(document.lights.size(), 2u);
-    std::size_t white = 0; // stops that the brush left: radiance 1 in all channels
-    for (const document::Key& key : document.lights[0].keys) {
-        white += static_cast<std::size_t>(std::count_if(
-            key.gradient.stops.begin(), key.gradient.stops.end(), [](const document::Stop& stop) {
-                return stop.stop.color == glm::dvec3(1.0) && stop.stop.ev == 0.0;
-            }));
+    task("6 scrub the day");
+    const ui::Mark day = mark("day");
+    drag({day.low.x + 0.5f * (day.high.x - day.low.x), day.center().y},
+         {day.low.x + 0.3f * (day.high.x - day.low.x), day.center().y});
+    look("viewport", 0.2);
+    EXPECT_EQ(model().undoCount(), 4U) << "an hour is how it is looked at";
+}
+
+void Tasks::doAll() {
+    const std::string original = contents();
+    task("1 open the sample");
+    open();
+    before_ = core::Image(kWidth, kHeight, 4);
+    seenBefore_ = window_ ? core::Image(kWidth, kHeight, window_->shown().channels()) : before_;
+    look("viewport", 0.3);
+    const std::string first = document::writeDocument(model().document());
+    editAll();
+    const std::string edited = document::writeDocument(model().document());
+
+    task("7 undo it all");
+    for (int i = 0; i < 4; ++i) {
+        key(Key::Z, "ctrl+z", {false, true, false});
     }
-    EXPECT_GE(white, 2u) << "what was painted is not in the file";
-    EXPECT_FALSE(std::filesystem::exists("imgui.ini"));
+    look("viewport", 0.2);
+    EXPECT_EQ(document::writeDocument(model().document()), first);
+    EXPECT_FALSE(model().dirty());
 
-    do {
-        output("xdotool windowactivate --sync " + window_ + " key alt+F4");
-    } while (run_.wait_for(std::chrono::seconds(2)) != std::future_status::ready);
-    RunResult ended = run_.get();
-    EXPECT_EQ(ended.status, 0) << ended.err;
-    EXPECT_EQ(ended.err, "");
+    task("8 redo and save");
+    for (int i = 0; i < 4; ++i) {
+        key(Key::Z, "ctrl+shift+z", {true, true, false});
+    }
+    look("viewport", 0.2);
+    EXPECT_EQ(contents(), original) << "written before it was saved";
+    key(Key::S, "ctrl+s", {false, true, false});
+    EXPECT_FALSE(model().dirty());
+    EXPECT_TRUE(contents() == edited) << "the window's program painted something else";
+
+    task("9 reopen");
+    close();
+    open();
+    EXPECT_EQ(document::writeDocument(model().document()), edited);
+    EXPECT_EQ(model().undoCount(), 0U);
+    click(mark("material 3").center());
+    look("viewport", 0.0); // another hour than the one that was left
+    close();
+    EXPECT_LE(actions_, kMostActions);
+    EXPECT_FALSE(std::filesystem::exists("imgui.ini"));
+}
+
+TEST_F(Tasks, EachTakesEightActionsAtMost) {
+    doAll();
+}
+
+TEST_F(Tasks, ARealWindowDoesTheSame) {
+    if (const std::string missing = missingPrograms(); !missing.empty()) {
+        GTEST_SKIP() << missing;
+    }
+    window_.emplace(folder_, file_, "1440x900");
+    doAll();
+}
+
+TEST(Editor, ItsWindowFitsASmallScreen) {
+    if (const std::string missing = missingPrograms(); !missing.empty()) {
+        GTEST_SKIP() << missing;
+    }
+    const TemporaryFolder folder;
+    RealWindow window(folder, folder.file("sky.lodestar.json"), "1024x700");
+    ASSERT_TRUE(window.open());
+    window.rest();
+    // What is seen of it is all of it: a part that the screen does not have is in no picture.
+    int width = 0, height = 0;
+    const std::string size = window.geometry();
+    const std::size_t at = size.find("WIDTH=");
+    ASSERT_NE(at, std::string::npos) << size;
+    ASSERT_EQ(std::sscanf(size.c_str() + at, "WIDTH=%d HEIGHT=%d", &width, &height), 2) << size;
+    const core::Image seen = window.shown();
+    EXPECT_EQ(seen.width(), width);
+    EXPECT_EQ(seen.height(), height);
+    EXPECT_LE(width, 1024);
+    EXPECT_LE(height, 700);
+    EXPECT_GT(width, 900) << "it uses what there is";
+    EXPECT_GT(height, 550);
+    std::filesystem::create_directories("editor-screenshots");
+    window.keep("editor-screenshots/small-screen.png");
+    EXPECT_EQ(window.close().status, 0);
 }
 
 TEST(Editor, WithoutADisplayItSaysSoAndIsStatusFour) {
