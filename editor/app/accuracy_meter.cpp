@@ -24,7 +24,7 @@ namespace {
 /// for each light; at each row of the maps.
 constexpr int kEnvironmentDirections = 192;
 constexpr int kEven = 32, kAtLight = 24;
-constexpr int kEvenOfRow = 8, kAtLightOfRow = 8;
+constexpr int kEvenOfRow = 6, kAtLightOfRow = 6;
 
 /// A slice that takes so long, milliseconds, counts; so many of them are timed.
 constexpr double kSliceMs = 2.0;
@@ -255,11 +255,13 @@ private:
         for (std::size_t line = 0; line < work.view.lines.size() && !work.cancelled; ++line) {
             const lighting::RsrmLayout& layout = *lighting::rsrmLayoutNamed(kLayouts[line]);
             (void)kernels_->get(layout, lighting::LightKind::Sky); // for the slices
-            measureMaps(work, layout, truth, exponent,
+            lighting::DayLookup maps(subject.lights, layout, kernels_);
+            measureMaps(work, maps, truth, exponent,
                         [&](const lighting::Accuracy& accuracy, int fetches) {
                             setLine(work, line, accuracy, fetches);
                         });
         }
+        lighting::DayLookup fitted(subject.lights, lighting::kRsrm, kernels_);
         for (std::size_t row = 0; row < work.view.rows.size() && !work.cancelled; ++row) {
             for (const bool between : {false, true}) {
                 const ui::MapRow& shown = work.view.rows[row];
@@ -267,9 +269,8 @@ private:
                 if (between && row + 1 == work.view.rows.size()) {
                     continue;
                 }
-                measureMaps(work, lighting::kRsrm,
-                            truthOf(reference, drawnOfRow, kEvenOfRow, at, advance), at,
-                            [&](const lighting::Accuracy& accuracy, int) {
+                measureMaps(work, fitted, truthOf(reference, drawnOfRow, kEvenOfRow, at, advance),
+                            at, [&](const lighting::Accuracy& accuracy, int) {
                                 const std::lock_guard lock(work.mutex);
                                 ui::MapRow& written = work.view.rows[row];
                                 (between ? written.betweenError : written.error) = accuracy.rmse;
@@ -280,12 +281,11 @@ private:
     }
 
     template <class Tell>
-    void measureMaps(const Work& work, const lighting::RsrmLayout& layout, const Truth& truth,
-                     double exponent, const Tell& tell) {
+    static void measureMaps(const Work& work, lighting::DayLookup& maps, const Truth& truth,
+                            double exponent, const Tell& tell) {
         if (work.cancelled) {
             return;
         }
-        lighting::DayLookup maps(work.subject.lights, layout, kernels_);
         std::vector<glm::dvec3> answers;
         int fetches = 0;
         for (const lighting::MeasuredDirection& measured : truth.directions) {

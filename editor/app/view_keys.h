@@ -31,6 +31,7 @@ enum class Action {
     Darker,
     ChooseSpecular,
     ChooseDiffuse,
+    ChooseForms,
     ErrorView,
     Screenshot,
     Help,
@@ -43,7 +44,7 @@ struct KeyBinding {
     platform::Key key = platform::Key::Space;
     platform::Modifiers modifiers;
     Action action = Action::Help;
-    int choice = 0; ///< which estimator, of the Choose actions
+    int choice = 0; ///< which estimator; of forms 0 the highlight's, 1 Fresnel's
 };
 
 /// Every binding.

@@ -351,6 +351,8 @@ OverlayText Viewer::text() const {
             (onlyLights() ? lightsEstimator_ : lighting::estimatorName(settings_.specular)),
         "diffuse   " +
             (onlyLights() ? lightsEstimator_ : lighting::estimatorName(settings_.diffuse)),
+        "forms     lobes " + lighting::nameOf(settings_.lobes) + ", Fresnel " +
+            lighting::nameOf(settings_.fresnel),
         "exposure  " + formatted("%+.2f EV", exposure_),
         animationText(),
         lights_.empty() ? "no hour: no lighting document" : hourText(),

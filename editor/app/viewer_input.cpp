@@ -196,6 +196,7 @@ void Viewer::perform(const KeyBinding& binding) {
         break;
     case Action::ChooseSpecular:
     case Action::ChooseDiffuse:
+    case Action::ChooseForms:
         chooseEstimator(binding);
         break;
     case Action::ErrorView:
@@ -247,6 +248,17 @@ void Viewer::chooseScene(int step) {
 }
 
 void Viewer::chooseEstimator(const KeyBinding& binding) {
+    if (binding.action == Action::ChooseForms) {
+        using lighting::FresnelForm, lighting::LobeForm;
+        if (binding.choice == 0) {
+            settings_.lobes = settings_.lobes == LobeForm::Sg ? LobeForm::Power : LobeForm::Sg;
+        } else {
+            settings_.fresnel =
+                settings_.fresnel == FresnelForm::Sg ? FresnelForm::Schlick : FresnelForm::Sg;
+        }
+        changed(true);
+        return;
+    }
     constexpr const char* kOfLights[] = {"rsrm", "rsrm-published", "rsrm-published-columns"};
     if (onlyLights()) {
         if (binding.choice < static_cast<int>(std::size(kOfLights))) {

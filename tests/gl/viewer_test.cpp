@@ -248,6 +248,16 @@ TEST_F(ViewerTest, KeysChooseAndClose) {
     press(Key::Digit3, {true, false, false});
     EXPECT_EQ(viewer_->stats().at("estimators").at("specular"), "mip");
     EXPECT_EQ(viewer_->stats().at("estimators").at("diffuse"), "lowest-mip");
+    const auto shows = [this](const std::string& line) {
+        const std::vector<std::string> lines = viewer_->text().lines;
+        return std::find(lines.begin(), lines.end(), line) != lines.end();
+    };
+    EXPECT_TRUE(shows("forms     lobes power, Fresnel schlick"));
+    press(Key::G);
+    press(Key::G, {true, false, false});
+    EXPECT_TRUE(shows("forms     lobes sg, Fresnel sg"));
+    press(Key::G);
+    EXPECT_TRUE(shows("forms     lobes power, Fresnel sg"));
     press(Key::F1);
     EXPECT_TRUE(viewer_->text().help);
     press(Key::H);

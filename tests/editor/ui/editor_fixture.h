@@ -157,6 +157,7 @@ protected:
         for (double patience = editor_->patience(); patience < 1.0;
              patience = editor_->patience()) {
             std::this_thread::sleep_for(std::chrono::duration<double>(patience));
+            editor_->advance(patience);
             settle();
         }
         return part(shown(), mark("viewport"));
