@@ -148,6 +148,9 @@ void drawPlot(Studio& studio, float width) {
         if (line.used) {
             list.AddCircle(at, 0.5f * em, ImGui::GetColorU32(kAccent), 0, 1.5f);
         }
+        if (!line.front && !line.used) {
+            continue; // names would hide each other; the table has them all
+        }
         const float wide = ImGui::CalcTextSize(line.name.c_str()).x;
         const bool left = at.x + 0.6f * em + wide > frame.high.x;
         list.AddText({left ? at.x - 0.6f * em - wide : at.x + 0.6f * em, at.y - 1.05f * em},
@@ -173,7 +176,8 @@ void drawNumbers(Studio& studio) {
         ImGui::TextColored(color, "%s%s%s", line.name.c_str(), line.chosen.empty() ? "" : " = ",
                            line.chosen.c_str());
         for (const std::string& text :
-             {percentText(line.error), percentText(line.worst), millisecondsText(line.ms),
+             {percentText(line.error), percentText(line.worst),
+              line.ms ? formatted("%.3g", *line.ms) : std::string("\xe2\x80\x93"),
               line.fetches > 0 ? std::to_string(line.fetches) : std::string("\xe2\x80\x93")}) {
             ImGui::TableNextColumn();
             ImGui::TextColored(color, "%s", text.c_str());
@@ -205,7 +209,7 @@ void drawAccuracyPanel(Studio& studio) {
         ImGui::SameLine();
         ImGui::TextColored(kAccent, "measuring: %.0f %%", 100.0 * accuracy.progress);
     }
-    const float width = 0.5f * ImGui::GetContentRegionAvail().x;
+    const float width = 0.42f * ImGui::GetContentRegionAvail().x;
     drawPlot(studio, width);
     ImGui::SameLine();
     drawNumbers(studio);
