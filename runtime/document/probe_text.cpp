@@ -9,6 +9,7 @@
 namespace lodestar::document {
 namespace {
 
+using lighting::ProbeRelight;
 using lighting::ProbeUpdate;
 using lighting::ProbeVolume;
 using lighting::VolumeShape;
@@ -212,6 +213,11 @@ Probe readProbe(const Reader& reader) {
     if (const auto update = reader.member("update")) {
         readUpdate(*update, probe);
     }
+    if (const auto relight = reader.member("relight")) {
+        constexpr std::array<ProbeRelight, 2> kRelights = {ProbeRelight::Compose,
+                                                           ProbeRelight::Ratio};
+        values.relight = kRelights[relight->word({"compose", "ratio"})];
+    }
     if (const auto influence = reader.member("influence")) {
         values.influence = readVolume(*influence, probe.influenceUnknown);
     }
@@ -220,8 +226,8 @@ Probe readProbe(const Reader& reader) {
     }
     readLight(reader, values);
     probe.unknown =
-        reader.unknown({"name", "node", "position", "source", "capture", "update", "influence",
-                        "proxy", "priority", "exterior", "tint", "intensity"});
+        reader.unknown({"name", "node", "position", "source", "capture", "update", "relight",
+                        "influence", "proxy", "priority", "exterior", "tint", "intensity"});
     return probe;
 }
 
@@ -257,6 +263,9 @@ Json toJson(const Probe& probe) {
                            : values.update == ProbeUpdate::OnChange ? "on-change"
                            : values.update == ProbeUpdate::Always   ? "always"
                                                                     : "on-demand";
+    }
+    if (values.relight == ProbeRelight::Ratio) {
+        object["relight"] = "ratio";
     }
     object["influence"] = toJson(values.influence, probe.influenceUnknown);
     if (values.proxy) {

@@ -37,6 +37,12 @@ enum class ProbeUpdate {
     OnDemand, ///< when asked for
 };
 
+/// What a change of the sky's intensity or tint alone makes of a probe's light.
+enum class ProbeRelight {
+    Compose, ///< the new sky is composed behind the captured geometry, mips are made anew
+    Ratio,   ///< the sky's part is kept apart and multiplied while shading: no pass
+};
+
 struct ProbeCapture {
     int resolution = 128;               ///< texels of a face's side, [1, 16384]
     double nearPlane = 0.05;            ///< metres, > 0
@@ -53,6 +59,7 @@ struct Probe {
     ProbeCapture capture;
     ProbeUpdate update = ProbeUpdate::OnChange;
     int every = 1; ///< frames, >= 1, of ProbeUpdate::Every
+    ProbeRelight relight = ProbeRelight::Compose;
     ProbeVolume influence;
     std::optional<ProbeVolume> proxy; ///< for parallax correction; absent: light is from far away
     int priority = 0;                 ///< of two at one point, the higher shows

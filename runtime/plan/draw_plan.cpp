@@ -35,10 +35,14 @@ Features lightFeatures(const PlanInput& input, const EffectPlan& result) {
     return features;
 }
 
-Features probeFeatures(const ProbeChoice& choice) {
+Features probeFeatures(const PlanInput& input, const ProbeChoice& choice) {
+    const bool skies = std::any_of(choice.probe.begin(), choice.probe.end(), [&](int probe) {
+        return probe != ProbeChoice::kNone && input.probes[static_cast<std::size_t>(probe)].ratio;
+    });
     const bool any = choice.probe[0] != ProbeChoice::kNone || choice.open < 1.0f;
     return (any ? bit(Feature::Probe) : 0u) |
-           (choice.probe[1] != ProbeChoice::kNone ? bit(Feature::SecondProbe) : 0u);
+           (choice.probe[1] != ProbeChoice::kNone ? bit(Feature::SecondProbe) : 0u) |
+           (skies ? bit(Feature::ProbeSkies) : 0u);
 }
 
 Features featuresOf(const PlanInput& input, const DrawView& draw, Features lights,
@@ -46,7 +50,7 @@ Features featuresOf(const PlanInput& input, const DrawView& draw, Features light
     if (!draw.lit) {
         return draw.features;
     }
-    Features features = draw.features | lights | probeFeatures(choice);
+    Features features = draw.features | lights | probeFeatures(input, choice);
     if (has(features, Feature::RsrmLights) && !input.rsrmPublished &&
         draw.sharpest > input.rsrmGreatestExponent) {
         features |= bit(Feature::RsrmMirror);

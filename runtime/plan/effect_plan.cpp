@@ -13,7 +13,7 @@ namespace {
 
 using lighting::PreparedParts;
 
-constexpr std::array<const char*, 32> kFeatureNames = {"normals",
+constexpr std::array<const char*, 33> kFeatureNames = {"normals",
                                                        "tangents",
                                                        "vertex-colors",
                                                        "base-color-texture",
@@ -44,7 +44,8 @@ constexpr std::array<const char*, 32> kFeatureNames = {"normals",
                                                        "taps-32",
                                                        "taps-64",
                                                        "sg-lobes",
-                                                       "sg-fresnel"};
+                                                       "sg-fresnel",
+                                                       "probe-skies"};
 
 /// Texels of a whole chain of six faces.
 std::uint64_t chainTexels(int width) {
@@ -340,7 +341,7 @@ std::optional<lighting::Estimator> estimatorOf(Features set) {
 std::vector<std::string> featureNames(Features set) {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < kFeatureNames.size(); ++i) {
-        if ((set & (1u << i)) != 0) {
+        if ((set & (Features{1} << i)) != 0) {
             names.emplace_back(kFeatureNames[i]);
         }
     }

@@ -18,7 +18,7 @@
 namespace lodestar::plan {
 
 /// What a draw's shader must be able to do. Bits of a set.
-enum class Feature : std::uint32_t {
+enum class Feature : std::uint64_t {
     Normals = 1u << 0,
     Tangents = 1u << 1,
     VertexColors = 1u << 2,
@@ -49,11 +49,12 @@ enum class Feature : std::uint32_t {
     Ring7 = 1u << 27,
     Taps32 = 1u << 28,
     Taps64 = 1u << 29,
-    SgLobes = 1u << 30,   ///< highlights of analytic lights are spherical Gaussians
-    SgFresnel = 1u << 31, ///< Fresnel's reflectance is a spherical Gaussian's
+    SgLobes = 1u << 30,                  ///< highlights of analytic lights are spherical Gaussians
+    SgFresnel = 1u << 31,                ///< Fresnel's reflectance is a spherical Gaussian's
+    ProbeSkies = std::uint64_t{1} << 32, ///< a probe that holds it keeps the sky's part apart
 };
 
-using Features = std::uint32_t;
+using Features = std::uint64_t;
 
 [[nodiscard]] constexpr Features bit(Feature feature) {
     return static_cast<Features>(feature);

@@ -177,6 +177,16 @@ void observe(ProbeHistory& history, ProbeView& view, const MovedIndex& moved,
     }
     history.position = view.position;
     view.skyChanged = !history.ready || history.composedUnder != light.sky;
+    if (view.ratio && history.ready) {
+        const bool known = view.skyChanged && history.composedRadiance && light.radiance;
+        const std::optional<glm::vec3> factor =
+            !view.skyChanged ? glm::vec3(1.0f)
+            : known          ? skyFactor(*history.composedRadiance, *light.radiance)
+                             : std::nullopt;
+        view.skyChanged = !factor;
+        history.skyFactor = factor.value_or(history.skyFactor);
+    }
+    view.skyFactor = history.skyFactor;
     view.ready = history.ready;
     view.stale = view.fromFile ? std::array<bool, 6>{} : history.stale;
     view.drawn = history.drawn;
@@ -222,6 +232,8 @@ void executed(ProbeHistory& history, const ProbeDone& done, const LightState& li
         history.madeLevel = done.work->lastLevel;
         history.madeIrradiance = done.work->irradiance;
         history.composedUnder = light.sky;
+        history.composedRadiance = light.radiance;
+        history.skyFactor = glm::vec3(1.0f);
         history.fadeLeft = done.work->fadeLeft - 1;
     }
 }

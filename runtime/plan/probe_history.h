@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 
 #include "plan/box_tree.h"
 #include "plan/probe_plan.h"
+#include "plan/sky_factor.h"
 
 namespace lodestar::plan {
 
@@ -49,6 +51,8 @@ struct LightState {
     /// places.
     std::vector<std::array<glm::dvec3, 3>> sources;
     std::uint64_t sky = 0; ///< another value where what stands behind captured geometry has changed
+    /// The same to be compared by its factor; null where no probe asks for that.
+    std::shared_ptr<const SkyRadiance> radiance{};
     bool operator==(const LightState&) const = default;
 };
 
@@ -82,6 +86,8 @@ struct ProbeHistory {
     LightState capturedUnder; ///< when the first of the six faces that show was drawn
     LightState drawingUnder;  ///< when the first of this round was
     std::uint64_t composedUnder = 0;
+    std::shared_ptr<const SkyRadiance> composedRadiance; ///< the same
+    glm::vec3 skyFactor{1.0f}; ///< of the last sky that was the composed one times a factor
     bool operator==(const ProbeHistory&) const = default;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "lodestar/cube.glsl"
 #include "plan/effect_plan.h"
@@ -112,6 +113,18 @@ Cost mipCost(const ProbeView& probe, int last) {
 
 std::string exponentText(double exponent) {
     return exponent < 1e7 ? std::to_string(std::llround(exponent)) : std::string("a mirror");
+}
+
+/// "0.8", or "0.8, 0.7, 0.6" where the channels differ.
+std::string factorText(const glm::vec3& factor) {
+    const bool grey = factor.r == factor.g && factor.g == factor.b;
+    std::string text;
+    for (int c = 0; c < (grey ? 1 : 3); ++c) {
+        std::array<char, 16> digits{};
+        std::snprintf(digits.data(), digits.size(), "%.3g", static_cast<double>(factor[c]));
+        text += (c > 0 ? ", " : "") + std::string(digits.data());
+    }
+    return text;
 }
 
 /// Decides for all probes in one frame.
@@ -265,6 +278,16 @@ private:
         if (work.compose) {
             result_.probeWork.push_back(work);
             describe(work);
+            return;
+        }
+        const ProbeView& probe = input_.probes[i];
+        if (probe.ratio && receivers_[i].count > 0 && probe.skyFactor != glm::vec3(1.0f)) {
+            result_.effects.push_back(
+                {"probe-ratio",
+                 probe.subject,
+                 Decision::Run,
+                 "sky " + factorText(probe.skyFactor) + " times as bright: a factor, no pass",
+                 {}});
         }
     }
 
@@ -275,11 +298,15 @@ private:
         compose.reason = work.publish         ? "composed: its faces are published"
                          : probe.fadeLeft > 0 ? "composed: what was published fades in"
                          : !probe.ready       ? "composed: a file's light is shown"
-                         : probe.skyChanged   ? "composed again: the sky has changed"
-                                            : "composed again: what it lights now reads more of it";
+                         : probe.skyChanged
+                             ? probe.ratio ? "composed again: the sky has changed, not by a factor"
+                                           : "composed again: the sky has changed"
+                             : "composed again: what it lights now reads more of it";
         // And one for what it sees of suns.
         const std::uint64_t suns = input_.rsrmLights.empty() ? 0 : 1;
-        compose.cost = {6 + suns, 6 + suns, 6 * faceTexels(probe) + suns * kSunTexels, 0};
+        const std::uint64_t parts = probe.ratio ? 2 : 1; // the sky's apart
+        compose.cost = {6 * parts + suns, 6 * parts + suns,
+                        6 * parts * faceTexels(probe) + suns * kSunTexels, 0};
         result_.effects.push_back(std::move(compose));
         if (work.lastLevel > 0) {
             Effect mips{"probe-mips", probe.subject, Decision::Run, {}, {}};
@@ -289,14 +316,18 @@ private:
                                exponentText(lit.sharpest);
             }
             mips.cost = mipCost(probe, work.lastLevel);
+            mips.cost.draws *= parts;
+            mips.cost.passes *= parts;
+            mips.cost.texelsWritten *= parts;
             result_.effects.push_back(std::move(mips));
         }
         if (work.irradiance) {
-            result_.effects.push_back({"probe-irradiance",
-                                       probe.subject,
-                                       Decision::Run,
-                                       "visible diffuse surfaces are lit by it",
-                                       {2, 2, kPartTexels + kTileTexels, 0}});
+            result_.effects.push_back(
+                {"probe-irradiance",
+                 probe.subject,
+                 Decision::Run,
+                 "visible diffuse surfaces are lit by it",
+                 {2 * parts, 2 * parts, parts * (kPartTexels + kTileTexels), 0}});
         }
     }
 

@@ -40,13 +40,16 @@ struct ProbeView {
     /// Those of the drawn that earlier plans asked for and that are not there yet, where faces come
     /// later than the plan: PlanInput::facesComeLater.
     std::array<bool, 6> awaited{};
-    std::string because;         ///< what made them stale: "the lift moved"
-    int waiting = 0;             ///< frames since its first stale face became so
-    double speed = 0.0;          ///< of the fastest thing that made it so, metres a frame
-    double lightChange = 0.0;    ///< relative change of what lights its geometry since captured
-    bool requested = false;      ///< asked for, of ProbeUpdate::OnDemand
-    bool skyChanged = false;     ///< what stands behind its geometry, since it was composed
-    int madeLevel = 0;           ///< the deepest that its light has
+    std::string because;      ///< what made them stale: "the lift moved"
+    int waiting = 0;          ///< frames since its first stale face became so
+    double speed = 0.0;       ///< of the fastest thing that made it so, metres a frame
+    double lightChange = 0.0; ///< relative change of what lights its geometry since captured
+    bool requested = false;   ///< asked for, of ProbeUpdate::OnDemand
+    /// What stands behind its geometry, since it was composed; with `ratio`, by more than a factor.
+    bool skyChanged = false;
+    bool ratio = false;        ///< lighting::ProbeRelight::Ratio
+    glm::vec3 skyFactor{1.0f}; ///< of `ratio`: the sky over the one composed, [0, kGreatestFactor]
+    int madeLevel = 0;         ///< the deepest that its light has
     bool madeIrradiance = false; ///< whether it has any
     int fadeLeft = 0;            ///< frames until what was published last shows fully
     int drawnFor = 0;            ///< frames that the faces drawn have taken

@@ -204,6 +204,13 @@ lighting::LightMap::Content GpuLights::content(std::size_t light) const {
     return lighting::LightMap::contentOf(lights_[light].moment);
 }
 
+std::vector<glm::vec3> GpuLights::gradient(std::size_t light) const {
+    const lighting::DayLight& day = lights_[light].map.day();
+    const lighting::LightMap::Content now = content(light);
+    return lighting::blended(lighting::keyGradient(day, now.from),
+                             lighting::keyGradient(day, now.to), now.t, now.factor);
+}
+
 double GpuLights::brightest() const {
     double sum = 0.0;
     for (const Light& light : lights_) {

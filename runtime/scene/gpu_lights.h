@@ -68,6 +68,8 @@ public:
     /// Whether a light is a sky; what of it a blend depends on.
     [[nodiscard]] bool isSky(std::size_t light) const;
     [[nodiscard]] lighting::LightMap::Content content(std::size_t light) const;
+    /// Its unfiltered gradient at the hour last described.
+    [[nodiscard]] std::vector<glm::vec3> gradient(std::size_t light) const;
     [[nodiscard]] std::size_t count() const { return lights_.size(); }
     /// The greatest sum over lights of radiance that any of their keys has.
     [[nodiscard]] double brightest() const;

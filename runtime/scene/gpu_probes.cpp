@@ -83,11 +83,16 @@ GpuProbes::makeCubes(gl::Device& device, const ProbeComponent& component, core::
         if (captured) {
             auto lit = gl::Texture::makeCubeTarget(device, width, lighting::fullLevelCount(width),
                                                    "light of a probe");
-            if (lit) {
-                warnings.add("light probe smaller than asked for", width < asked ? 1 : 0);
-                return Cubes{width, std::move(*captured), std::move(*lit)};
+            core::Result<gl::Texture> sky = gl::Texture();
+            if (lit && component.probe.relight == lighting::ProbeRelight::Ratio) {
+                sky = gl::Texture::makeCubeTarget(device, width, lighting::fullLevelCount(width),
+                                                  "sky of a probe");
             }
-            captured = lit.error();
+            if (lit && sky) {
+                warnings.add("light probe smaller than asked for", width < asked ? 1 : 0);
+                return Cubes{width, std::move(*captured), std::move(*lit), std::move(*sky)};
+            }
+            captured = lit ? sky.error() : lit.error();
         }
         if (width <= 1 || fromFile) {
             return captured.error();
@@ -135,15 +140,20 @@ core::Result<void> GpuProbes::prepare(gl::Device& device, const ProbeObserver& o
         if (!made) {
             return made.error();
         }
-        if (freeTiles_.empty()) {
-            auto tile = irradiance_.add();
-            if (!tile) {
-                return tile.error();
+        for (int* number : {&made->tile, &made->skyTile}) {
+            if (number == &made->skyTile && !made->sky) {
+                continue;
             }
-            freeTiles_.push_back(*tile);
+            if (freeTiles_.empty()) {
+                auto tile = irradiance_.add();
+                if (!tile) {
+                    return tile.error();
+                }
+                freeTiles_.push_back(*tile);
+            }
+            *number = freeTiles_.back();
+            freeTiles_.pop_back();
         }
-        made->tile = freeTiles_.back();
-        freeTiles_.pop_back();
         cubes_[index] = std::move(*made);
     }
     for (const plan::ProbeFace& face : plan.probeFaces) {
@@ -168,6 +178,9 @@ void GpuProbes::keep(std::span<const int> which) {
     for (const Cubes& lost : cubes) {
         if (lost.width > 0) {
             freeTiles_.push_back(lost.tile);
+        }
+        if (lost.width > 0 && lost.sky) {
+            freeTiles_.push_back(lost.skyTile);
         }
     }
     times_.reset();
@@ -207,7 +220,8 @@ void GpuProbes::publish(std::size_t probe) {
     }
 }
 
-void GpuProbes::compose(const plan::ProbeWork& work, const gl::Program& program, bool fromFile) {
+void GpuProbes::compose(const plan::ProbeWork& work, const gl::Program& program, bool fromFile,
+                        CompositionPart part) {
     const Cubes& cubes = cubes_[work.probe];
     program.use();
     glUniform1ui(program.uniform("uHalfStep"), filter_->halfStep());
@@ -220,11 +234,16 @@ void GpuProbes::compose(const plan::ProbeWork& work, const gl::Program& program,
     glDisable(GL_CULL_FACE);
     glDepthMask(GL_FALSE);
     work.fadeLeft > 1 ? glEnable(GL_BLEND) : glDisable(GL_BLEND);
-    glBlendColor(0.0f, 0.0f, 0.0f, 1.0f / static_cast<float>(work.fadeLeft));
-    glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
+    const float share = 1.0f / static_cast<float>(work.fadeLeft);
+    const bool sky = part == CompositionPart::Sky;
+    // What fades out goes on with its factor, what is written has none.
+    const glm::vec3 kept = (1.0f - share) * (sky ? cubes.skyFactor : glm::vec3(1.0f));
+    glBlendColor(kept.r, kept.g, kept.b, share);
+    glBlendFuncSeparate(GL_CONSTANT_ALPHA, GL_CONSTANT_COLOR, GL_CONSTANT_ALPHA,
+                        GL_ONE_MINUS_CONSTANT_ALPHA);
     fullScreen_.bind();
     for (int face = 0; face < 6; ++face) {
-        faces_.begin(cubes.lit, face);
+        faces_.begin(sky ? cubes.sky : cubes.lit, face);
         glUniform1i(program.uniform("uFace"), face);
         gl::drawFullScreen(*device_);
     }
@@ -249,18 +268,32 @@ void GpuProbes::work(const plan::EffectPlan& plan, const Programs& programs,
             times_->begin(work.probe, ProbeTimes::kLight);
         }
         if (work.compose) {
-            compose(work, programs.composition(plan),
-                    observer.component(work.probe).map != nullptr);
+            for (const CompositionPart part : partsOf(static_cast<bool>(cubes.sky))) {
+                compose(work, programs.composition(plan, part),
+                        observer.component(work.probe).map != nullptr, part);
+            }
+            cubes.skyFactor = glm::vec3(1.0f);
             if (!plan.rsrmLights.empty()) {
                 findSuns(cubes, programs.seenSuns());
             }
         }
         cubes.lastLevel = std::min(work.lastLevel, cubes.lit.levelCount() - 1);
-        work.irradiance ? filter_->fill(cubes.lit, cubes.lastLevel, irradiance_, cubes.tile)
-                        : filter_->fillMips(cubes.lit, cubes.lastLevel);
+        for (const auto& [cube, tile] :
+             {std::pair{&cubes.lit, cubes.tile}, std::pair{&cubes.sky, cubes.skyTile}}) {
+            if (*cube) {
+                work.irradiance ? filter_->fill(*cube, cubes.lastLevel, irradiance_, tile)
+                                : filter_->fillMips(*cube, cubes.lastLevel);
+            }
+        }
         if (times_) {
             times_->end();
         }
+    }
+}
+
+void GpuProbes::setSkyFactors(const plan::PlanInput& input) {
+    for (std::size_t i = 0; i < std::min(cubes_.size(), input.probes.size()); ++i) {
+        cubes_[i].skyFactor = input.probes[i].skyFactor;
     }
 }
 
@@ -282,6 +315,11 @@ void GpuProbes::describe(gl::Device& device, const ProbeObserver& observer,
             block.light /= written_;
             block.light.w = static_cast<float>(cubes.lastLevel);
             block.tile = glm::vec4(glm::vec2(irradiance_.tile(cubes.tile)), 0.0f, 0.0f);
+            if (cubes.sky) {
+                block.sky = glm::vec4(cubes.skyFactor, 1.0f);
+                block.tile.z = static_cast<float>(irradiance_.tile(cubes.skyTile).x);
+                block.tile.w = static_cast<float>(irradiance_.tile(cubes.skyTile).y);
+            }
         }
         blocks[count + i + 1] = block;
         blocks[count + i + 1].light = glm::vec4(0.0f);
@@ -308,10 +346,21 @@ core::Image GpuProbes::read(std::size_t probe, int face, int level) const {
     }
     const int width = std::max(cubes_[probe].width >> level, 1);
     core::Image image(width, width, 4);
-    cubes_[probe].lit.bind(kFirstProbeUnit);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glGetTexImage(GL_TEXTURE_CUBE_MAP_POSITIVE_X + static_cast<GLenum>(face), level, GL_RGBA,
-                  GL_FLOAT, image.pixels().data());
+    const auto fetch = [&](const gl::Texture& cube, core::Image& into) {
+        cube.bind(kFirstProbeUnit);
+        glPixelStorei(GL_PACK_ALIGNMENT, 1);
+        glGetTexImage(GL_TEXTURE_CUBE_MAP_POSITIVE_X + static_cast<GLenum>(face), level, GL_RGBA,
+                      GL_FLOAT, into.pixels().data());
+    };
+    fetch(cubes_[probe].lit, image);
+    if (cubes_[probe].sky) {
+        core::Image sky(width, width, 4);
+        fetch(cubes_[probe].sky, sky);
+        for (std::size_t i = 0; i < sky.pixels().size(); ++i) {
+            const auto c = static_cast<int>(i % 4);
+            image.pixels()[i] += c < 3 ? cubes_[probe].skyFactor[c] * sky.pixels()[i] : 0.0f;
+        }
+    }
     for (std::size_t i = 0; i < image.pixels().size(); ++i) {
         image.pixels()[i] /= i % 4 < 3 ? written_ : 1.0f;
     }
@@ -320,6 +369,7 @@ core::Image GpuProbes::read(std::size_t probe, int face, int level) const {
 
 void GpuProbes::bind(const plan::ProbeChoice& choice) const {
     constexpr int kUnits[] = {kFirstProbeUnit, kSecondProbeUnit};
+    constexpr int kSkyUnits[] = {kFirstProbeSkyUnit, kSecondProbeSkyUnit};
     constexpr unsigned kBindings[] = {kFirstProbeBinding, kSecondProbeBinding};
     const std::size_t count = blocks_.size() / 2;
     for (std::size_t slot = 0; slot < 2; ++slot) {
@@ -328,7 +378,11 @@ void GpuProbes::bind(const plan::ProbeChoice& choice) const {
             static_cast<std::size_t>(probe + 1) + (choice.dark[slot] ? count : 0); // kNone is -1
         blockBuffer_.bindBlock(kBindings[slot], block * stride_, sizeof(blocks::LodestarProbe));
         if (probe != plan::ProbeChoice::kNone && !choice.dark[slot]) {
-            cubes_[static_cast<std::size_t>(probe)].lit.bind(kUnits[slot]);
+            const Cubes& cubes = cubes_[static_cast<std::size_t>(probe)];
+            cubes.lit.bind(kUnits[slot]);
+            if (cubes.sky) {
+                cubes.sky.bind(kSkyUnits[slot]);
+            }
         }
     }
     if (irradiance_.texture()) {

@@ -17,10 +17,9 @@
 #include "plan/effect_plan.h"
 #include "scene/probe_observer.h"
 #include "scene/probe_times.h"
+#include "scene/programs.h"
 
 namespace lodestar::scene {
-
-class Programs;
 
 /// How a face of a light probe sees the world.
 struct FaceView {
@@ -58,6 +57,8 @@ public:
     void work(const plan::EffectPlan& plan, const Programs& programs,
               const ProbeObserver& observer);
 
+    /// Before the frame's work: the factors of skies that are kept apart.
+    void setSkyFactors(const plan::PlanInput& input);
     /// Uploads the blocks of all probes where they have changed.
     void describe(gl::Device& device, const ProbeObserver& observer, const plan::PlanInput& input);
     /// A face of what a probe lights with: radiance, row 0 first as GL has it, level 0 or a mip
@@ -70,8 +71,11 @@ private:
     struct Cubes {
         int width = 0; ///< of a face, texels; 0: nothing has been asked of it yet
         gl::Texture captured, lit;
+        gl::Texture sky;              ///< its part of the light, where it is kept apart from `lit`
+        glm::vec3 skyFactor{1.0f};    ///< on `sky`
         int lastLevel = 0;            ///< of `lit`, that is made
         int tile = 0;                 ///< of the irradiance
+        int skyTile = 0;              ///< of the sky's
         std::array<bool, 6> staged{}; ///< faces that wait in the staging cube
     };
     struct Staging {
@@ -84,7 +88,8 @@ private:
     makeCubes(gl::Device& device, const ProbeComponent& component, core::Tally& warnings);
     [[nodiscard]] core::Result<void> prepareStaging(gl::Device& device, int width);
     void findSuns(const Cubes& cubes, const gl::Program& program);
-    void compose(const plan::ProbeWork& work, const gl::Program& program, bool fromFile);
+    void compose(const plan::ProbeWork& work, const gl::Program& program, bool fromFile,
+                 CompositionPart part);
 
     gl::Device* device_ = nullptr;
     float written_ = 1.0f;

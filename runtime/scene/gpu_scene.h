@@ -38,13 +38,15 @@ enum TextureUnit : int {
     kInstanceUnit,
     kFirstProbeUnit,
     kSecondProbeUnit,
+    kFirstProbeSkyUnit,
+    kSecondProbeSkyUnit,
     kProbeIrradianceUnit,
     kReferenceUnit,
     kReferenceLightsUnit,
 };
 
 /// The names of the samplers, by unit.
-inline constexpr std::array<const char*, 21> kSamplerNames = {
+inline constexpr std::array<const char*, 23> kSamplerNames = {
     "uBaseColorTexture", "uMetallicRoughnessTexture",
     "uNormalTexture",    "uOcclusionTexture",
     "uEmissiveTexture",  "uExponentTexture",
@@ -54,6 +56,7 @@ inline constexpr std::array<const char*, 21> kSamplerNames = {
     "uRsrmLamberts",     "uRsrmGradients",
     "uShadows",          "uInstances",
     "uFirstProbe",       "uSecondProbe",
+    "uFirstProbeSky",    "uSecondProbeSky",
     "uProbeIrradiance",  "uReferenceLights",
     "uDrawnLights"};
 

@@ -10,7 +10,34 @@
 
 namespace lodestar::scene {
 
-plan::LightState lightState(const GpuEnvironment& environment, GpuLights& lights) {
+namespace {
+
+/// All skies' gradients, and what else composition depends on.
+std::shared_ptr<const plan::SkyRadiance> skyRadiance(const GpuEnvironment& environment, bool shown,
+                                                     const GpuLights& lights) {
+    plan::SkyRadiance sky;
+    sky.fixed = shown;
+    plan::StateHash rest;
+    rest.fold(shown ? environment.content() : std::uint64_t{0});
+    for (std::size_t i = 0; i < lights.count(); ++i) {
+        rest.fold(std::uint64_t{lights.content(i).factor > 0.0 ? 1u : 0u});
+        if (lights.isSky(i)) {
+            const std::vector<glm::vec3> gradient = lights.gradient(i);
+            sky.samples.insert(sky.samples.end(), gradient.begin(), gradient.end());
+        }
+        if (lights.isSky(i) || lights.isBareSun(i)) {
+            for (int c = 0; c < 3; ++c) {
+                rest.fold(lights.axis(i)[c]);
+            }
+        }
+    }
+    sky.rest = rest.value();
+    return std::make_shared<const plan::SkyRadiance>(std::move(sky));
+}
+
+} // namespace
+
+plan::LightState lightState(const GpuEnvironment& environment, GpuLights& lights, bool radiance) {
     const glm::dvec3 up(0.0, 1.0, 0.0);
     plan::LightState state;
     const bool shown = !environment.empty() && lights.replacement().empty();
@@ -37,6 +64,7 @@ plan::LightState lightState(const GpuEnvironment& environment, GpuLights& lights
         }
     }
     state.sky = sky.value();
+    state.radiance = radiance ? skyRadiance(environment, shown, lights) : nullptr;
     return state;
 }
 

@@ -13,7 +13,9 @@
 namespace lodestar::scene {
 
 /// Of the hour for which the lights were last described.
-[[nodiscard]] plan::LightState lightState(const GpuEnvironment& environment, GpuLights& lights);
+/// @param radiance whether LightState::radiance is asked for
+[[nodiscard]] plan::LightState lightState(const GpuEnvironment& environment, GpuLights& lights,
+                                          bool radiance);
 
 /// A power of two, at most 1, by which captured radiance is multiplied so that half floats hold
 /// twice the sum of everything's greatest radiance.

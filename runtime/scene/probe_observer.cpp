@@ -126,6 +126,15 @@ const lighting::Probe& ProbeObserver::probe(std::size_t index) const {
     return component(index).probe;
 }
 
+bool ProbeObserver::ratios() const {
+    for (std::size_t i = 0; i < count(); ++i) {
+        if (probe(i).relight == lighting::ProbeRelight::Ratio) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /// The frame of a probe: its node's, moved to where it captures.
 glm::mat4 ProbeObserver::worldFromProbe(std::size_t index) const {
     return glm::translate(scene_.nodes[places_[index].node].worldFromNode,
@@ -149,6 +158,7 @@ plan::ProbeView ProbeObserver::view(std::size_t index) const {
     view.every = probe.every;
     view.priority = probe.priority;
     view.interior = !probe.exterior;
+    view.ratio = probe.relight == lighting::ProbeRelight::Ratio;
     view.fromFile = component(index).map != nullptr;
     return view;
 }

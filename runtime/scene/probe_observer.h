@@ -30,6 +30,9 @@ public:
     [[nodiscard]] const lighting::Probe& probe(std::size_t index) const;
     [[nodiscard]] const ProbeComponent& component(std::size_t index) const;
 
+    /// Whether some probe's sky may change by a factor alone.
+    [[nodiscard]] bool ratios() const;
+
     /// Its proxy in the world; nothing where it has none, or one without an inside.
     [[nodiscard]] std::optional<lighting::PlacedVolume> proxy(std::size_t index) const;
 

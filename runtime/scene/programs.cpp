@@ -87,6 +87,7 @@ gl::Defines definesFor(plan::Features features, const plan::EffectPlan& plan,
         {"LODESTAR_RSRM_MIRROR", Feature::RsrmMirror},
         {"LODESTAR_LOBES", Feature::SgLobes},
         {"LODESTAR_FRESNEL", Feature::SgFresnel},
+        {"LODESTAR_PROBE_SKIES", Feature::ProbeSkies},
     };
     for (const auto& [name, feature] : macros) {
         defines.emplace_back(name, plan::has(features, feature) ? "1" : "0");
@@ -131,17 +132,23 @@ gl::Defines skyDefines(plan::Features features, const plan::EffectPlan& plan) {
 }
 
 /// Of a composition: which of the lights are skies, by bit.
-gl::Defines compositionDefines(const plan::EffectPlan& plan) {
+gl::Defines compositionDefines(const plan::EffectPlan& plan, CompositionPart part) {
     gl::Defines defines = skyDefines(plan.skyFeatures, plan);
     unsigned skies = 0;
     for (std::size_t i = 0; i < plan.rsrmLights.size(); ++i) {
         skies |= plan.rsrmLights[i].sky ? 1u << i : 0u;
     }
     defines.emplace_back("LODESTAR_SKIES", std::to_string(skies) + "u");
+    defines.emplace_back("LODESTAR_COMPOSED", std::to_string(static_cast<int>(part)));
     return defines;
 }
 
 } // namespace
+
+std::vector<CompositionPart> partsOf(bool ratio) {
+    return ratio ? std::vector{CompositionPart::Geometry, CompositionPart::Sky}
+                 : std::vector{CompositionPart::Whole};
+}
 
 gl::Defines estimatorDefines(const lighting::Estimator& specular,
                              const lighting::Estimator& diffuse) {
@@ -204,13 +211,13 @@ core::Result<void> Programs::compile(const plan::PlanInput& input, const plan::E
             return made;
         }
     }
-    const bool composes = std::any_of(plan.probeWork.begin(), plan.probeWork.end(),
-                                      [](const plan::ProbeWork& work) { return work.compose; });
-    if (composes) {
-        if (auto made = add(compositions_, "host/present.vert", "host/probe_compose.frag",
-                            compositionDefines(plan));
-            !made) {
-            return made;
+    for (const plan::ProbeWork& work : plan.probeWork) {
+        for (const CompositionPart part : partsOf(input.probes[work.probe].ratio)) {
+            if (auto made = add(compositions_, "host/present.vert", "host/probe_compose.frag",
+                                compositionDefines(plan, part));
+                !made) {
+                return made;
+            }
         }
         if (!plan.rsrmLights.empty()) {
             if (auto made = add(suns_, "host/present.vert", "host/probe_suns.frag", {}); !made) {
@@ -260,8 +267,8 @@ const gl::Program& Programs::seenSuns() const {
     return suns_.at({}).program;
 }
 
-const gl::Program& Programs::composition(const plan::EffectPlan& plan) const {
-    return compositions_.at(compositionDefines(plan)).program;
+const gl::Program& Programs::composition(const plan::EffectPlan& plan, CompositionPart part) const {
+    return compositions_.at(compositionDefines(plan, part)).program;
 }
 
 } // namespace lodestar::scene

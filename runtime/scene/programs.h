@@ -4,6 +4,7 @@
 #pragma once
 
 #include <map>
+#include <vector>
 
 #include "gl/program.h"
 #include "plan/effect_plan.h"
@@ -19,6 +20,12 @@ enum BlockBinding : unsigned {
     kFirstProbeBinding,
     kSecondProbeBinding
 };
+
+/// What of a light probe's level 0 a composition writes.
+enum class CompositionPart { Whole, Geometry, Sky };
+
+/// The parts of a probe's light. @param ratio the sky's is kept apart
+[[nodiscard]] std::vector<CompositionPart> partsOf(bool ratio);
 
 /// A program and where it takes the place of a batch's first instance, -1 where it has none.
 struct MeshProgram {
@@ -55,7 +62,8 @@ public:
     /// How much probes see of suns. @pre compiled, where the plan has lights
     [[nodiscard]] const gl::Program& seenSuns() const;
     /// Composes what stands behind a probe's captured geometry.
-    [[nodiscard]] const gl::Program& composition(const plan::EffectPlan& plan) const;
+    [[nodiscard]] const gl::Program& composition(const plan::EffectPlan& plan,
+                                                 CompositionPart part) const;
     /// Depth alone, of a caster with these features.
     [[nodiscard]] const MeshProgram& depth(plan::Features features, const plan::EffectPlan& plan,
                                            const RenderSettings& settings) const;

@@ -182,6 +182,7 @@ core::Result<void> Renderer::State::drawProbes(const plan::EffectPlan& plan,
     if (auto made = probes.prepare(device, observer, plan, probeWarnings); !made) {
         return made;
     }
+    probes.setSkyFactors(input);
     probes.describe(device, observer, input);
     constexpr float kGreatestHalf = 65504.0f;
     for (std::size_t i = 0; i < plan.probeFaces.size(); ++i) {
@@ -339,7 +340,7 @@ std::shared_ptr<const plan::EffectPlan> Renderer::State::planFrame(const View& v
     input.faceBudget = settings.faceBudget;
     input.probeBudgetMs = settings.probeBudgetMs;
     if (!observer.empty()) {
-        observer.describe(lightState(environment, lights), planner.drawsKept(),
+        observer.describe(lightState(environment, lights, observer.ratios()), planner.drawsKept(),
                           settings.lightThreshold, input);
         if (std::isfinite(input.probeBudgetMs)) {
             probes.describeTimes(device, input.probes);

@@ -88,7 +88,8 @@ LODESTAR_BLOCK(LodestarProbe)
     vec4 proxyExtents;     ///< xyz half extents; w 1: a sphere, 0: a box, -1: there is no proxy
     vec4 capturedAt;       ///< xyz in the world; w face width
     vec4 light;            ///< rgb factor on what is fetched; w last level
-    vec4 tile;             ///< xy first texel of its tile of irradiance
+    vec4 tile;             ///< xy first texel of its tile of irradiance; zw of its sky's
+    vec4 sky;              ///< rgb factor on its sky's light; w 1 where that is kept apart
 LODESTAR_BLOCK_ARRAY_END(LodestarProbe, uProbe, 2)
 
 #ifdef __cplusplus

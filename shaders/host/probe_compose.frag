@@ -4,6 +4,7 @@
 // distant environment and the skies. Suns are no part of it: they light by themselves. What was
 // captured is repaired, channel by channel: NaN and what is negative give no light, what is infinite the
 // greatest that is held; its coverage keeps the sky out all the same.
+// LODESTAR_COMPOSED: 0 both; where the sky's part is kept apart, 1 the captured part, 2 the sky's.
 #include "host/probe_half.glsl"
 #include "host/blocks.glsl"
 #include "lodestar/cube.glsl"
@@ -47,5 +48,11 @@ void main() {
     }
 #endif
     vec3 open = min(sky * written.x, vec3(written.y));
+#if LODESTAR_COMPOSED == 1
+    oRadiance = nearestHalf(vec4(light, 1.0));
+#elif LODESTAR_COMPOSED == 2
+    oRadiance = nearestHalf(vec4((1.0 - coverage) * open, 1.0));
+#else
     oRadiance = nearestHalf(vec4(min(light + (1.0 - coverage) * open, vec3(written.y)), 1.0));
+#endif
 }

@@ -27,7 +27,7 @@ LodestarVolume volumeOf(vec4 x, vec4 y, vec4 z, vec4 extents, vec4 high, vec4 lo
 #define LODESTAR_PROBE_RADIANCE(k, surface, lookup, direction) \
     probeRadiance(k + 1, surface, lookup, direction, \
                   lodestar_footprintLevel(direction, dFdx(direction), dFdy(direction), max(uProbe[k].capturedAt.w, 1.0)), \
-                  uProbe[k].capturedAt.w, uProbe[k].light, uProbe[k].tile.xy)
+                  uProbe[k].capturedAt.w, uProbe[k].light, uProbe[k].tile, uProbe[k].sky)
 
 LodestarShares probeShares() {
     float first = uProbe[0].influenceExtents.x > 0.0 ? lodestar_volumeWeight(LODESTAR_INFLUENCE(0), vPosition) : 0.0;
@@ -48,7 +48,7 @@ vec3 towards(LodestarVolume proxy, vec3 captured, vec3 direction) {
 /// @param direction of the lookup, corrected for parallax
 /// @param footprint the pixel's level there
 vec3 probeRadiance(int slot, LodestarSurface surface, LodestarLookup lookup, vec3 direction, float footprint,
-                   float width, vec4 light, vec2 tile) {
+                   float width, vec4 light, vec4 tile, vec4 sky) {
     if (width <= 0.0 || dot(light.rgb, vec3(1.0)) <= 0.0) {
         return vec3(0.0); // it holds nothing, or keeps the sky out alone
     }
@@ -58,8 +58,14 @@ vec3 probeRadiance(int slot, LodestarSurface surface, LodestarLookup lookup, vec
     cube.maxLevel = light.w;
     cube.leastLevel = 0.0;
     vec3 glossy = lodestar_specularOfTents(cube, direction, lookup.exponent, footprint);
-    vec2 at = (tile + lodestar_irradianceTexel(surface.normal)) / vec2(textureSize(uProbeIrradiance, 0));
-    vec3 lambert = textureLod(uProbeIrradiance, at, 0.0).rgb;
+    vec2 texel = lodestar_irradianceTexel(surface.normal);
+    vec2 size = vec2(textureSize(uProbeIrradiance, 0));
+    vec3 lambert = textureLod(uProbeIrradiance, (tile.xy + texel) / size, 0.0).rgb;
+#if LODESTAR_PROBE_SKIES
+    if (sky.w > 0.5) {
+        lambert += sky.rgb * textureLod(uProbeIrradiance, (tile.zw + texel) / size, 0.0).rgb;
+    }
+#endif
     glossy = lodestar_mix(glossy, lambert, max(1.0 - lodestar_repairExponent(surface.exponent), 0.0));
     return light.rgb * lodestar_reflected(surface, lambert, glossy);
 }

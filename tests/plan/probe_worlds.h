@@ -48,6 +48,7 @@ inline ProbeView viewOf(const lighting::Probe& probe) {
     view.every = probe.every;
     view.priority = probe.priority;
     view.interior = !probe.exterior;
+    view.ratio = probe.relight == lighting::ProbeRelight::Ratio;
     return view;
 }
 

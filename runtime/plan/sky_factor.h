@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+//
+// Whether one sky is another of which only the intensity or tint has changed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace lodestar::plan {
+
+/// What stands behind captured geometry, as far as it may change by a factor.
+struct SkyRadiance {
+    /// Of all that may not: directions, the distant environment, which suns are up.
+    std::uint64_t rest = 0;
+    std::vector<glm::vec3> samples; ///< radiance, >= 0, of all skies in one order
+    bool fixed = false; ///< something that is no sample shines too: only the factor 1 is one
+    bool operator==(const SkyRadiance&) const = default;
+};
+
+/// A factor beyond it composes. Stored half floats of which less than 2^-14 have an error of up to
+/// 2^-25, the factor times as much afterwards: 2^-21, half a step of 2^-10. So a level is as exact
+/// as one composed anew over 25 of the octaves below the 2^15 of the brightest sky of the day.
+inline constexpr float kGreatestFactor = 16.0f;
+
+/// The factor of each channel that makes `now` of `then`: 1 where both are black. Nothing where
+/// there is none, one beyond kGreatestFactor, or light where there was none. Samples are told apart
+/// by more than the rounding of how they were made: a tint's product and a blend of two keys take
+/// five roundings, 2^-24 each, four samples are compared, so 20 in 32.
+[[nodiscard]] std::optional<glm::vec3> skyFactor(const SkyRadiance& then, const SkyRadiance& now);
+
+} // namespace lodestar::plan
