@@ -20,9 +20,10 @@ struct SkyRadiance {
     bool operator==(const SkyRadiance&) const = default;
 };
 
-/// A factor beyond it composes. Stored half floats of which less than 2^-14 have an error of up to
-/// 2^-25, the factor times as much afterwards: 2^-21, half a step of 2^-10. So a level is as exact
-/// as one composed anew over 25 of the octaves below the 2^15 of the brightest sky of the day.
+/// A factor beyond it composes. Half floats of less than 2^-14 are stored within 2^-24, by a driver
+/// that cuts off, and the factor multiplies that: 2^-20, half a step at 2^-9. So light is as exact
+/// as composed anew down to 24 octaves below 2^15, the most that all of a day's skies are stored
+/// as.
 inline constexpr float kGreatestFactor = 16.0f;
 
 /// The factor of each channel that makes `now` of `then`: 1 where both are black. Nothing where

@@ -152,7 +152,11 @@ TEST(ProbeRatio, IsOnlyWhereItIsAskedFor) {
     World other = ratioLobby();
     EXPECT_TRUE(has(other.frame().drawFeatures.at(0), Feature::ProbeSkies));
     other.input.draws.push_back(drawAt({100, 0, 0}));
-    EXPECT_FALSE(has(other.frame().drawFeatures.at(1), Feature::ProbeSkies));
+    const EffectPlan both = other.frame();
+    ASSERT_EQ(both.drawFeatures.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) { // the second draw is far from the probe
+        EXPECT_EQ(has(both.drawFeatures[i], Feature::ProbeSkies), both.drawOrder[i] == 0);
+    }
 }
 
 } // namespace
