@@ -72,8 +72,9 @@ core::Result<void> GpuProbes::prepareShared(gl::Device& device) {
     return {};
 }
 
-core::Result<GpuProbes::Cubes>
-GpuProbes::makeCubes(gl::Device& device, const ProbeComponent& component, core::Tally& warnings) {
+core::Result<GpuProbes::Cubes> GpuProbes::makeCubes(gl::Device& device,
+                                                    const ProbeComponent& component, bool ratio,
+                                                    core::Tally& warnings) {
     const bool fromFile = component.map != nullptr;
     const int asked = fromFile ? component.map->width() : component.probe.capture.resolution;
     int width = fromFile ? asked : std::min({asked, kWidest, device.capabilities().maxCubeSize});
@@ -84,7 +85,7 @@ GpuProbes::makeCubes(gl::Device& device, const ProbeComponent& component, core::
             auto lit = gl::Texture::makeCubeTarget(device, width, lighting::fullLevelCount(width),
                                                    "light of a probe");
             core::Result<gl::Texture> sky = gl::Texture();
-            if (lit && component.probe.relight == lighting::ProbeRelight::Ratio) {
+            if (lit && ratio) {
                 sky = gl::Texture::makeCubeTarget(device, width, lighting::fullLevelCount(width),
                                                   "sky of a probe");
             }
@@ -136,7 +137,7 @@ core::Result<void> GpuProbes::prepare(gl::Device& device, const ProbeObserver& o
         if (cubes_[index].width > 0) {
             continue;
         }
-        auto made = makeCubes(device, observer.component(index), warnings);
+        auto made = makeCubes(device, observer.component(index), observer.ratio(index), warnings);
         if (!made) {
             return made.error();
         }

@@ -84,8 +84,9 @@ private:
     };
 
     [[nodiscard]] core::Result<void> prepareShared(gl::Device& device);
-    [[nodiscard]] static core::Result<Cubes>
-    makeCubes(gl::Device& device, const ProbeComponent& component, core::Tally& warnings);
+    [[nodiscard]] static core::Result<Cubes> makeCubes(gl::Device& device,
+                                                       const ProbeComponent& component, bool ratio,
+                                                       core::Tally& warnings);
     [[nodiscard]] core::Result<void> prepareStaging(gl::Device& device, int width);
     void findSuns(const Cubes& cubes, const gl::Program& program);
     void compose(const plan::ProbeWork& work, const gl::Program& program, bool fromFile,

@@ -41,7 +41,8 @@ bool isOwnNode(const Node& node) {
 }
 
 bool capturesAs(const ProbeComponent& a, const ProbeComponent& b) {
-    return a.map == b.map && a.probe.capture == b.probe.capture;
+    return a.map == b.map && a.probe.capture == b.probe.capture &&
+           a.probe.relight == b.probe.relight; // its chains
 }
 
 /// Which of `before` each of `now` is, or -1: one that is equal, else one that captures alike at
@@ -89,7 +90,7 @@ void ProbeObserver::findPlaces() {
     for (std::size_t n = 0; n < scene_.nodes.size(); ++n) {
         for (std::size_t c = 0; c < scene_.nodes[n].components.size(); ++c) {
             if (const auto* probe = std::get_if<ProbeComponent>(&scene_.nodes[n].components[c])) {
-                places_.push_back({n, c});
+                places_.push_back({n, c, probe->probe.relight == lighting::ProbeRelight::Ratio});
                 known_.push_back(*probe);
             }
         }
@@ -128,7 +129,7 @@ const lighting::Probe& ProbeObserver::probe(std::size_t index) const {
 
 bool ProbeObserver::ratios() const {
     for (std::size_t i = 0; i < count(); ++i) {
-        if (probe(i).relight == lighting::ProbeRelight::Ratio) {
+        if (ratio(i)) {
             return true;
         }
     }
@@ -158,7 +159,7 @@ plan::ProbeView ProbeObserver::view(std::size_t index) const {
     view.every = probe.every;
     view.priority = probe.priority;
     view.interior = !probe.exterior;
-    view.ratio = probe.relight == lighting::ProbeRelight::Ratio;
+    view.ratio = ratio(index);
     view.fromFile = component(index).map != nullptr;
     return view;
 }

@@ -30,7 +30,8 @@ public:
     [[nodiscard]] const lighting::Probe& probe(std::size_t index) const;
     [[nodiscard]] const ProbeComponent& component(std::size_t index) const;
 
-    /// Whether some probe's sky may change by a factor alone.
+    /// Whether a probe's sky may change by a factor alone; whether some probe's may.
+    [[nodiscard]] bool ratio(std::size_t index) const { return places_[index].ratio; }
     [[nodiscard]] bool ratios() const;
 
     /// Its proxy in the world; nothing where it has none, or one without an inside.
@@ -55,6 +56,7 @@ public:
 private:
     struct Place {
         std::size_t node = 0, component = 0;
+        bool ratio = false; ///< its chains are made for it: as it was at first
     };
     struct Box {
         glm::vec3 low{0.0f}, high{0.0f};
