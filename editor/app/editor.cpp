@@ -343,6 +343,7 @@ core::Result<void> Editor::drawFrame(int width, int height, float scale, unsigne
     glClear(GL_COLOR_BUFFER_BIT);
     session_.render();
     device_->forgetProgram(0);
+    retired_.clear();
     ++framesDrawn_;
     return {};
 }

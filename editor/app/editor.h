@@ -189,6 +189,7 @@ private:
     AccuracyMeter meter_;
     std::optional<ErrorView> error_;
     gl::Texture errorPicture_;
+    std::vector<gl::Texture> retired_; ///< that the frame being built may still show
 
     scene::RenderSettings settings_;
     scene::CameraRequest request_;

@@ -16,7 +16,7 @@ bool Editor::errorDue() const {
 
 void Editor::forgetErrors() {
     error_.reset();
-    errorPicture_ = {};
+    retired_.push_back(std::exchange(errorPicture_, {}));
     around_.errorPicture = 0;
     around_.errorText.clear();
 }
@@ -51,7 +51,7 @@ void Editor::drawErrorPass() {
     if (!texture) {
         return failed(texture.error().message());
     }
-    errorPicture_ = std::move(*texture);
+    retired_.push_back(std::exchange(errorPicture_, std::move(*texture)));
     around_.errorPicture = errorPicture_.id();
     char text[64];
     std::snprintf(text, sizeof text, "error against the reference: %d of %d passes",

@@ -155,7 +155,8 @@ TEST_F(AccuracyEditorTest, EachEstimatorHasItsErrorAndItsTime) {
 TEST_F(AccuracyEditorTest, TheErrorViewComparesWithTheReferenceAndEndsWithAnyChange) {
     const core::Image picture = viewport();
     press(Key::E);
-    ASSERT_TRUE(editor_->workspace().view().errorView);
+    ASSERT_TRUE(editor_->workspace().view().errorView)
+        << (editor_->workspace().log().empty() ? "" : editor_->workspace().log().back().text);
     for (int i = 0; i < 4 && editor_->errorPasses() < app::Editor::kErrorPasses; ++i) {
         settle();
     }
