@@ -24,7 +24,7 @@ namespace {
 /// for each light; at each row of the maps.
 constexpr int kEnvironmentDirections = 192;
 constexpr int kEven = 32, kAtLight = 24;
-constexpr int kEvenOfRow = 6, kAtLightOfRow = 6;
+constexpr int kEvenOfRow = 4, kAtLightOfRow = 3;
 
 /// A slice that takes so long, milliseconds, counts; so many of them are timed.
 constexpr double kSliceMs = 2.0;
@@ -246,8 +246,9 @@ private:
             drawnLights(subject.lights, subject.hour, kAtLightOfRow);
         {
             const std::lock_guard lock(work.mutex);
+            const std::size_t places = std::max<std::size_t>(2 * work.view.rows.size(), 1) - 1;
             work.steps = kEven + kAtLight * drawn.size() +
-                         2 * work.view.rows.size() * (kEvenOfRow + kAtLightOfRow * drawn.size());
+                         places * (kEvenOfRow + kAtLightOfRow * drawn.size());
         }
         const auto advance = [&work] { return step(work); };
         const double exponent = work.view.exponent;

@@ -336,6 +336,8 @@ core::Result<void> Editor::drawFrame(int width, int height, float scale, unsigne
     syncPreview();
     if (errorDue()) {
         drawErrorPass();
+    } else if (error_ && !view.errorView) {
+        forgetErrors();
     }
     gl::beginWindowPass(*device_, framebuffer, 0, 0, width, height);
     glDisable(GL_SCISSOR_TEST);

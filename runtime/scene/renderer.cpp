@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "scene/renderer.h"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,21 +7,9 @@
 
 #include <epoxy/gl.h>
 
-#include "gl/timer.h"
 #include "scene/draw_list.h"
 #include "scene/frame_parts.h"
-#include "scene/frame_planner.h"
-#include "scene/gpu_deformation.h"
-#include "scene/gpu_environment.h"
-#include "scene/gpu_lights.h"
-#include "scene/gpu_probes.h"
-#include "scene/gpu_scene.h"
-#include "scene/light_state.h"
-#include "scene/presenter.h"
-#include "scene/probe_observer.h"
-#include "scene/scene_drawer.h"
-#include "scene/shadow_maps.h"
-#include "scene/uniform_block.h"
+#include "scene/renderer_state.h"
 
 namespace lodestar::scene {
 namespace {
@@ -38,71 +24,6 @@ double millisecondsSince(Clock::time_point start) {
 }
 
 } // namespace
-
-struct Renderer::State {
-    /// What shines from afar, on every renderer that was made beside another.
-    struct DistantLight {
-        GpuEnvironment environment;
-        GpuLights lights;
-    };
-
-    State(gl::Device& glDevice, const Scene& drawn, GpuScene uploaded, GpuDeformation deformed,
-          std::shared_ptr<DistantLight> light)
-        : device(glDevice), scene(drawn),
-          drawer(glDevice, drawn, std::move(uploaded), std::move(deformed)), timer(glDevice),
-          frameBlock(glDevice), lightBlock(glDevice), distant(std::move(light)),
-          environment(distant->environment), lights(distant->lights), observer(drawn) {}
-
-    gl::Device& device;
-    const Scene& scene;
-    SceneDrawer drawer;
-    gl::Timer timer;
-    UniformBlock<blocks::LodestarFrame> frameBlock;
-    UniformBlock<blocks::LodestarRsrmLights> lightBlock;
-    gl::Framebuffer target;
-    FramePlanner planner;
-    std::optional<Presenter> presenter;
-
-    std::shared_ptr<DistantLight> distant;
-    GpuEnvironment& environment; ///< distant's
-    GpuLights& lights;           ///< the same
-    ShadowMaps shadows;
-    int shadowCount = 0; ///< of the lights that these are for
-    ProbeObserver observer;
-    GpuProbes probes;
-    core::Tally probeWarnings;
-    bool forecastAwaited = false; ///< some draw's estimator is still to be chosen
-
-    /// What becomes of a tile that `target` holds: x, y, width, height in pixels from the top left.
-    using TileSink = std::function<void(const glm::ivec4&)>;
-    /// All of a frame but what becomes of its pixels.
-    core::Result<Frame> drawFrame(const View& view, const RenderSettings& settings,
-                                  const std::function<TileSink(Frame&)>& sinkFor);
-    /// Draws into each tile of a picture. @param block of all tiles but for their projection
-    /// @param milliseconds of the GPU's time, to be added to
-    core::Result<void> drawTiles(const View& view, const RenderSettings& settings,
-                                 blocks::LodestarFrame block,
-                                 const std::function<void(const blocks::LodestarFrame&)>& drawTile,
-                                 const TileSink& sink, double& milliseconds);
-    void chooseEstimators(bool wait, plan::PlanInput& input);
-    /// Where there are light probes, the factor that their half floats are written with.
-    void setWritten() {
-        if (!observer.empty()) {
-            probes.setWritten(writtenFactor(scene, environment, lights));
-        }
-    }
-    [[nodiscard]] std::shared_ptr<const plan::EffectPlan> planFrame(const View& view,
-                                                                    const RenderSettings& settings);
-    core::Result<void> drawShadows(const plan::EffectPlan& plan, const RenderSettings& settings,
-                                   const plan::PlanInput& input);
-    void bindLight(const RenderSettings& settings, const blocks::LodestarFrame& block);
-    core::Result<void> drawProbes(const plan::EffectPlan& plan, const RenderSettings& settings,
-                                  const plan::PlanInput& input);
-    core::Result<void> prepareReference(const plan::EffectPlan& plan,
-                                        const RenderSettings& settings, int taps);
-    [[nodiscard]] blocks::LodestarFrame frameBlockFor(const RenderSettings& settings,
-                                                      const glm::vec4& camera) const;
-};
 
 /// The maps that the plan draws, and the block that says how all are read.
 core::Result<void> Renderer::State::drawShadows(const plan::EffectPlan& plan,
@@ -209,103 +130,6 @@ core::Result<void> Renderer::State::drawProbes(const plan::EffectPlan& plan,
         probes.describe(device, observer, input); // levels have been made
     }
     return {};
-}
-
-Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
-Renderer::~Renderer() = default;
-
-core::Result<std::unique_ptr<Renderer>> Renderer::make(gl::Device& device, const Scene& scene) {
-    auto uploaded = GpuScene::make(device, scene);
-    if (!uploaded) {
-        return uploaded.error();
-    }
-    auto deformation = GpuDeformation::make(device, scene, drawItems(scene));
-    if (!deformation) {
-        return deformation.error();
-    }
-    auto state =
-        std::make_unique<State>(device, scene, std::move(*uploaded), std::move(*deformation),
-                                std::make_shared<State::DistantLight>());
-    if (!state->observer.empty()) {
-        state->probeWarnings.add("material's emission outside [0, 1e9], repaired in light probes",
-                                 brokenEmissions(scene));
-    }
-    return std::unique_ptr<Renderer>(new Renderer(std::move(state)));
-}
-
-core::Result<std::unique_ptr<Renderer>> Renderer::makeBeside(gl::Device& device, const Scene& scene,
-                                                             const Renderer& other) {
-    auto deformation = GpuDeformation::make(device, scene, drawItems(scene));
-    if (!deformation) {
-        return deformation.error();
-    }
-    GpuScene uploaded = GpuScene::makeBeside(device, scene, other.state_->drawer.uploaded());
-    return std::unique_ptr<Renderer>(new Renderer(std::make_unique<State>(
-        device, scene, std::move(uploaded), std::move(*deformation), other.state_->distant)));
-}
-
-void Renderer::setEnvironment(std::string source, lighting::Cubemap base) {
-    state_->environment = GpuEnvironment(std::move(source), std::move(base));
-    state_->planner.forgetDraws(); // estimators are chosen for this map
-    state_->setWritten();
-}
-
-void Renderer::setLights(std::vector<lighting::DayLight> lights,
-                         const lighting::RsrmLayout& layout) {
-    GpuLights set(std::move(lights), layout, state_->lights.kernels());
-    set.keep(std::move(state_->lights));
-    state_->lights = std::move(set);
-    state_->setWritten();
-}
-
-void Renderer::materialsChanged() {
-    state_->drawer.forgetMaterials();
-    state_->planner.forgetDraws();
-    for (std::size_t i = 0; i < state_->observer.count(); ++i) {
-        state_->observer.request(i); // what they hold shows the materials as they were
-    }
-    state_->setWritten();
-}
-
-void Renderer::probesChanged() {
-    state_->probes.keep(state_->observer.rescan());
-    state_->setWritten();
-}
-
-const core::Tally& Renderer::lightWarnings() const {
-    return state_->lights.warnings();
-}
-
-bool Renderer::awaitsForecast() const {
-    return state_->forecastAwaited;
-}
-
-std::size_t Renderer::probeCount() const {
-    return state_->observer.count();
-}
-
-const std::string& Renderer::probeName(std::size_t probe) const {
-    return state_->observer.probe(probe).name;
-}
-
-void Renderer::requestProbe(std::size_t probe) {
-    state_->observer.request(probe);
-}
-
-bool Renderer::isProbeReady(std::size_t probe) const {
-    return state_->observer.isReady(probe);
-}
-
-double Renderer::probeProgress(std::size_t probe) const {
-    return state_->observer.progress(probe);
-}
-
-core::Image Renderer::readProbe(std::size_t probe, int face, int level) const {
-    return state_->probes.read(probe, face, level);
-}
-
-const core::Tally& Renderer::probeWarnings() const {
-    return state_->probeWarnings;
 }
 
 /// What `auto` stands for; where nothing is foreseen yet draws are described again in the next

@@ -42,7 +42,7 @@ scene::Scene worldOf(int width, lighting::ProbeRelight relight) {
     probe.capture.resolution = width;
     probe.relight = relight;
     core::Tally warnings;
-    scene::addProbes(scene, {&probe, 1}, {}, warnings);
+    scene::setProbes(scene, {&probe, 1}, {}, warnings);
     scene::updateTransforms(scene);
     return scene;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The viewer without its window: what it answers to events.
+#include <algorithm>
 #include <fstream>
 
 #include <nlohmann/json.hpp>
@@ -151,7 +152,10 @@ TEST_F(ViewerTest, AnimationsPlayScrubAndGoRound) {
     viewer_->setSize(0, 0, 1.0f); // takes the frames that are still wanted out of the question
     viewer_->advance(1.0);
     EXPECT_FLOAT_EQ(viewer_->view().position.x, 7.0f);
-    EXPECT_NE(viewer_->text().lines.at(5).find("paused"), std::string::npos);
+    const std::vector<std::string> lines = viewer_->text().lines;
+    EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
+        return line.find("paused") != std::string::npos;
+    }));
     press(Key::N);
     press(Key::PageDown); // read again: at rest
     EXPECT_EQ(viewer_->view().position, rest.position);

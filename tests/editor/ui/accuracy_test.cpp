@@ -16,14 +16,16 @@ class AccuracyEditorTest : public EditorTest {
 protected:
     /// Waits as the window's loop does until what is measured is known.
     void measure() {
-        for (int i = 0; i < 3000; ++i) {
+        using Clock = std::chrono::steady_clock;
+        const auto end = Clock::now() + std::chrono::minutes(3);
+        while (Clock::now() < end) {
             settle();
             const ui::AccuracyView& view = editor_->surroundings().accuracy;
             const bool done =
                 !view.material.empty() && view.progress >= 1.0 &&
                 std::all_of(view.lines.begin(), view.lines.end(),
                             [](const ui::EstimateLine& line) { return line.ms && line.error; });
-            if (done && editor_->patience() > 1.0) {
+            if (done && editor_->patience() >= 1.0) {
                 return;
             }
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -149,7 +151,7 @@ TEST_F(AccuracyEditorTest, EachEstimatorHasItsErrorAndItsTime) {
     editor_->advance(0.01);
     settle();
     EXPECT_TRUE(editor_->surroundings().accuracy.lines.empty()) << "cancelled";
-    EXPECT_GT(editor_->patience(), 1.0);
+    EXPECT_GE(editor_->patience(), 1.0); // what others do to the file is looked at then
 }
 
 TEST_F(AccuracyEditorTest, TheErrorViewComparesWithTheReferenceAndEndsWithAnyChange) {

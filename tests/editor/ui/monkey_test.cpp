@@ -29,8 +29,8 @@ model::Model begun() {
 
 Surroundings spheres() {
     Surroundings around;
-    around.materials = {{"floor", 24.0, glm::dvec3(0.5), glm::dvec3(0.04), "", true},
-                        {"#1", 900.0, glm::dvec3(0.0), glm::dvec3(0.9), "ring:3", false}};
+    around.materials = {{"floor", 24.0, glm::dvec3(0.5), glm::dvec3(0.04), ""},
+                        {"#1", 900.0, glm::dvec3(0.0), glm::dvec3(0.9), "ring:3"}};
     around.nodes = {{"root", 0, ""}, {"ball", 1, "mesh"}};
     around.estimators = {"tent", "ring:3", "auto:0.05"};
     return around;
