@@ -148,6 +148,13 @@ bool captureFields(Studio& studio, lighting::Probe& probe) {
     if (probe.update == lighting::ProbeUpdate::Every) {
         changed = countField(studio, "frames", probe.every, 1, 1000000) || changed;
     }
+    constexpr std::array<const char*, 2> kRelights = {"composed again", "a factor while shading"};
+    label("a tinted sky is");
+    if (const auto relight =
+            choiceField(studio, "##relight", static_cast<std::size_t>(probe.relight), kRelights)) {
+        probe.relight = static_cast<lighting::ProbeRelight>(*relight);
+        changed = true;
+    }
     const double far = probe.capture.farPlane;
     changed =
         scalarField(studio, "near", probe.capture.nearPlane, 0.005f, 1e-4, 0.999 * far, "%.4g m") ||
