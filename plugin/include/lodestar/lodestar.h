@@ -413,8 +413,9 @@ typedef struct LodestarApi {
     const void* (*get_extension)(const char* id);
 
     /* [main] Sets what the document says of a material, by its name in glTF or "#index", over the
-     * host's, and the bits of it; a material that it does not name stays. A host asks by number,
-     * then by name. */
+     * host's, and the bits of it; a material that it does not name stays. One of metallic and
+     * roughness keeps what they make of the numbers that the document does not give, and gets all
+     * bits. A host asks by number, then by name. */
     LodestarStatus (*document_material)(LodestarContext*, LodestarDocument, const char* name,
                                         LodestarMaterial*);
     /* [any] Two vec4 of uniform data, GLSL's LodestarSurface: diffuse, exponent; f0, 1.
