@@ -122,6 +122,14 @@ std::optional<std::size_t> choiceField(Studio& studio, const char* id, std::size
     return changed == chosen ? std::nullopt : changed;
 }
 
+bool beginQuestion(const char* title) {
+    ImGui::SetNextWindowPos(
+        {0.5f * ImGui::GetIO().DisplaySize.x, 0.3f * ImGui::GetIO().DisplaySize.y},
+        ImGuiCond_Always, {0.5f, 0.0f});
+    return ImGui::BeginPopupModal(
+        title, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+}
+
 bool button(Studio& studio, const char* text, const char* shortcut) {
     const bool pressed = ImGui::Button(text);
     studio.mark(text);

@@ -28,6 +28,8 @@ void heading(const char* text);
 [[nodiscard]] std::optional<std::size_t> choiceField(Studio& studio, const char* id,
                                                      std::size_t chosen,
                                                      std::span<const char* const> choices);
+/// Begins a popup over all that waits for an answer, where it is open; ImGui::EndPopup ends it.
+[[nodiscard]] bool beginQuestion(const char* title);
 /// A button that says with a tooltip which key it has.
 [[nodiscard]] bool button(Studio& studio, const char* text, const char* shortcut);
 

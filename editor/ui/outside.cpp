@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What happens beside the panels: work on another thread, other programs at the document's file.
+#include "ui/fields.h"
 #include "ui/input.h"
 #include "ui/panels.h"
 
@@ -11,12 +12,7 @@ void drawOutside(Studio& studio, bool asks) {
     if (asks && !ImGui::IsPopupOpen(kTitle)) {
         ImGui::OpenPopup(kTitle);
     }
-    ImGui::SetNextWindowPos(
-        {0.5f * ImGui::GetIO().DisplaySize.x, 0.3f * ImGui::GetIO().DisplaySize.y},
-        ImGuiCond_Always, {0.5f, 0.0f});
-    if (!ImGui::BeginPopupModal(kTitle, nullptr,
-                                ImGuiWindowFlags_AlwaysAutoResize |
-                                    ImGuiWindowFlags_NoSavedSettings)) {
+    if (!beginQuestion(kTitle)) {
         return;
     }
     ImGui::TextUnformatted("There are unsaved changes here too. Reading it again can be undone.");

@@ -212,11 +212,7 @@ void Workspace::drawPrompts(Studio& studio) {
         ImGui::OpenPopup(title);
         promptOpens_ = false;
     }
-    ImGui::SetNextWindowPos(
-        {0.5f * ImGui::GetIO().DisplaySize.x, 0.3f * ImGui::GetIO().DisplaySize.y},
-        ImGuiCond_Always, {0.5f, 0.0f});
-    if (!ImGui::BeginPopupModal(
-            title, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
+    if (!beginQuestion(title)) {
         prompt_ = Prompt::None;
         return;
     }
@@ -251,12 +247,7 @@ void Workspace::drawQuestion(Studio& studio) {
         ImGui::OpenPopup(kTitle);
     }
     asksQuit_ = false;
-    ImGui::SetNextWindowPos(
-        {0.5f * ImGui::GetIO().DisplaySize.x, 0.3f * ImGui::GetIO().DisplaySize.y},
-        ImGuiCond_Always, {0.5f, 0.0f});
-    if (!ImGui::BeginPopupModal(kTitle, nullptr,
-                                ImGuiWindowFlags_AlwaysAutoResize |
-                                    ImGuiWindowFlags_NoSavedSettings)) {
+    if (!beginQuestion(kTitle)) {
         return;
     }
     const bool save = ImGui::Button("Save and quit");
