@@ -41,6 +41,19 @@ double power(double logCosine, double s) {
     return s == 0.0 ? 1.0 : std::exp(s * logCosine);
 }
 
+/// Sine and cosine of an angle.
+struct Turn {
+    double sine, cosine;
+    explicit Turn(double angle) : sine(std::sin(angle)), cosine(std::cos(angle)) {}
+    Turn(double sine, double cosine) : sine(sine), cosine(cosine) {}
+    [[nodiscard]] Turn plus(const Turn& by) const {
+        return {sine * by.cosine + cosine * by.sine, cosine * by.cosine - sine * by.sine};
+    }
+    [[nodiscard]] Turn minus(const Turn& by) const {
+        return {sine * by.cosine - cosine * by.sine, cosine * by.cosine + sine * by.sine};
+    }
+};
+
 /// (sin psi - psi cos psi) / psi, by its series where the difference cancels.
 double excessOfShare(double psi) {
     if (psi < 0.3) {
@@ -50,16 +63,15 @@ double excessOfShare(double psi) {
     return std::sin(psi) / psi - std::cos(psi);
 }
 
-/// log cos a with its digits about 0, -infinity where rounding puts a at pi / 2. @param a [0, pi /
-/// 2]
-double logCosine(double a) {
-    const double half = std::sin(0.5 * a);
+/// log cos a with its digits about 0, -infinity where rounding puts a at pi / 2.
+/// @param half sin(a / 2), a in [0, pi / 2]
+double logCosine(double half) {
     return std::log1p(-std::min(2.0 * half * half, 1.0));
 }
 
 /// The angle beyond which the lobe is below e^-45 of what it is at angle a1.
 double cutAngle(double a1, double s) {
-    const double v = -std::expm1(logCosine(a1) - kCut / (s + 1.0));
+    const double v = -std::expm1(logCosine(std::sin(0.5 * a1)) - kCut / (s + 1.0));
     return 2.0 * std::asin(std::sqrt(std::min(0.5 * v, 1.0)));
 }
 
@@ -107,25 +119,33 @@ CapIntegral::CapIntegral(double thetaO, double thetaB, double s)
     // Just below pi / 2 rounding may put the end before a1.
     const double covered = std::max(end - a1, 0.0);
     const double xEnd = end >= a2 ? 1.0 : 2.0 / kPi * std::asin(std::sqrt(covered / (a2 - a1)));
+    // Sines of sums from a node's one angle: most of a kernel's time would be sines otherwise.
+    const Turn halfNear(0.5 * a1);
+    const Turn halfWidth(0.5 * (a2 - a1));
+    const Turn outer(sum <= kPi ? thetaO : thetaB);
     count_ = kNodes;
     for (std::size_t i = 0; i < kNodes; ++i) {
         const double y = rule().nodes[i];
         const double x = cubic ? xEnd * (1.0 - (1.0 - y) * (1.0 - y) * (1.0 - y)) : xEnd * y;
         const double dx = cubic ? 3.0 * xEnd * (1.0 - y) * (1.0 - y) : xEnd;
-        const double sine = std::sin(0.5 * kPi * x);
-        const double cosine = std::cos(0.5 * kPi * x);
-        const double fromNear = (a2 - a1) * sine * sine; // a - a1, without cancellation
-        const double toFar = (a2 - a1) * cosine * cosine;
-        const double a = a1 + fromNear;
+        const Turn place(0.5 * kPi * x);
+        const double fromNear = (a2 - a1) * place.sine * place.sine; // a - a1, not subtracted
+        const double toFar = (a2 - a1) * place.cosine * place.cosine;
+        // Of half of each the smaller is taken itself, so that neither's sine cancels.
+        const Turn smaller(0.5 * std::min(fromNear, toFar));
+        const Turn other = halfWidth.minus(smaller);
+        const Turn& near = fromNear < toFar ? smaller : other;
+        const Turn& far = fromNear < toFar ? other : smaller;
+        const Turn half = halfNear.plus(near); // a / 2
         // One of sin((sum - a) / 2) and sin((sum + a) / 2) vanishes at a2.
-        const double less = sum <= kPi ? std::sin(0.5 * toFar) : std::sin(0.5 * (sum - a));
-        const double more = sum <= kPi ? std::sin(0.5 * (sum + a)) : std::sin(0.5 * toFar);
-        const double psi = 2.0 * std::atan2(std::sqrt(std::sin(0.5 * fromNear) * less),
-                                            std::sqrt(more * std::sin(0.5 * (a + a1))));
-        const double da = (a2 - a1) * kPi * sine * cosine * dx;
-        share_[i] = rule().weights[i] * psi / kPi * std::sin(a) * da;
-        excess_[i] = share_[i] * std::sin(a) * std::sin(thetaO) * excessOfShare(psi);
-        logCosine_[i] = logCosine(a);
+        const double less = sum <= kPi ? far.sine : outer.minus(near).sine;
+        const double more = sum <= kPi ? outer.plus(near).sine : far.sine;
+        psi_[i] = 2.0 * std::atan2(std::sqrt(near.sine * less),
+                                   std::sqrt(more * half.plus(halfNear).sine));
+        sine_[i] = 2.0 * half.sine * half.cosine;
+        const double da = (a2 - a1) * kPi * place.sine * place.cosine * dx;
+        share_[i] = rule().weights[i] * psi_[i] / kPi * sine_[i] * da;
+        logCosine_[i] = logCosine(half.sine);
     }
 }
 
@@ -140,8 +160,9 @@ double CapIntegral::mass(double s) const {
 double CapIntegral::firstExcess(double s) const {
     double sum = 0.0;
     for (int i = 0; i < count_; ++i) {
-        sum += excess_[i] * power(logCosine_[i], s);
+        sum += share_[i] * sine_[i] * excessOfShare(psi_[i]) * power(logCosine_[i], s);
     }
+    sum *= std::sin(thetaO_);
     const double rings =
         fullRings_ > 0.0
             ? std::pow(fullRings_, s + 1.0) *

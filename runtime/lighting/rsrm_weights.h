@@ -59,7 +59,8 @@ private:
     double fullRings_; ///< cos of the angle from which whole rings lie in the cap, 0 where none do
     int count_ = 0;
     double share_[kNodes];     ///< quadrature weight x (psi / pi) sin a
-    double excess_[kNodes];    ///< the same x B (sin psi - psi cos psi) / psi
+    double psi_[kNodes];       ///< half of the ring's part inside the cap, radians
+    double sine_[kNodes];      ///< sin a
     double logCosine_[kNodes]; ///< log cos a
 };
 
