@@ -114,6 +114,8 @@ constexpr std::array kUniforms = {
     vec4At("lodestar_mapSize", offsetof(LodestarLighting, lodestar_mapSize)),
     vec4At("lodestar_mapRows", offsetof(LodestarLighting, lodestar_mapRows)),
     vec4At("lodestar_axes", offsetof(LodestarLighting, lodestar_axes), LODESTAR_MAX_LIGHTS_SHOWN),
+    vec4At("lodestar_spreads", offsetof(LodestarLighting, lodestar_spreads),
+           LODESTAR_MAX_LIGHTS_SHOWN / 4),
     sampler("lodestar_maps", LODESTAR_UNIFORM_ARRAY, LODESTAR_TEXELS_MAP),
     sampler("lodestar_lamberts", LODESTAR_UNIFORM_ARRAY, LODESTAR_TEXELS_LAMBERT),
     sampler("lodestar_gradients", LODESTAR_UNIFORM_ARRAY, LODESTAR_TEXELS_GRADIENT),

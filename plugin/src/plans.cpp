@@ -234,6 +234,8 @@ blocks::LodestarLighting uniformsOf(const Packet& packet) {
     for (std::size_t i = 0; i < packet.lights.size(); ++i) {
         const LodestarPlannedLight& light = packet.lights[i].shown;
         uniforms.lodestar_axes[i] = {light.axis[0], light.axis[1], light.axis[2], light.layer};
+        uniforms.lodestar_spreads[i / 4][static_cast<int>(i % 4)] =
+            static_cast<float>(packet.lights[i].blend->spread);
     }
     return uniforms;
 }

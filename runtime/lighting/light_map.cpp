@@ -68,8 +68,10 @@ const LightMap::Key& LightMap::key(std::size_t index) {
 LightMap::Blend LightMap::blend(const Content& content) {
     const Key& from = key(content.from);
     const Key& to = key(content.to);
-    return {encode(layout_, blended(from.bake, to.bake, content.t, content.factor)),
-            blended(from.gradient, to.gradient, content.t, content.factor)};
+    Blend blend{encode(layout_, blended(from.bake, to.bake, content.t, content.factor)),
+                blended(from.gradient, to.gradient, content.t, content.factor)};
+    blend.spread = spread(blend.gradient);
+    return blend;
 }
 
 std::vector<std::uint8_t> LightMap::lambertTexels(const Blend& blend) {

@@ -49,6 +49,7 @@ public:
     struct Blend {
         RsrmTexels texels;
         std::vector<glm::vec3> gradient;
+        double spread = 0.0; ///< of the gradient, by `spread`
     };
     [[nodiscard]] Blend blend(const Content& content);
     /// The line over Lambert's lobe as RGBA floats.

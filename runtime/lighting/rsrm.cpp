@@ -182,6 +182,22 @@ glm::vec4 readTexel(RsrmEncoding encoding, const std::uint8_t* bytes) {
     return value;
 }
 
+/// Angles between the columns of an unfiltered gradient, pole to pole. Found by bisection, always
+/// the same: most of the time of an edit if made for each. An array, for what lives on is not the
+/// host's memory.
+const std::array<double, kGradientColumns + 1>& gradientEdges() {
+    static const auto kept = [] {
+        const std::vector<double> angles = columnAngles(RsrmColumns::Refined, kGradientColumns);
+        std::array<double, kGradientColumns + 1> made{};
+        for (std::size_t i = 0; i + 1 < angles.size(); ++i) {
+            made[i + 1] = 0.5 * (angles[i] + angles[i + 1]);
+        }
+        made.back() = std::numbers::pi;
+        return made;
+    }();
+    return kept;
+}
+
 } // namespace
 
 RsrmTexels encode(const RsrmLayout& layout, const RsrmBake& bake) {
@@ -210,20 +226,25 @@ RsrmTexels encode(const RsrmLayout& layout, const RsrmBake& bake) {
 }
 
 std::vector<glm::vec3> unfiltered(const RadianceProfile& profile) {
-    // Found by bisection, always the same: most of the time of an edit if made for each. An array,
-    // for what lives on is not the host's memory.
-    static const auto kept = [] {
-        const std::vector<double> angles = columnAngles(RsrmColumns::Refined, kGradientColumns);
-        std::array<double, kGradientColumns + 1> made{};
-        for (std::size_t i = 0; i + 1 < angles.size(); ++i) {
-            made[i + 1] = 0.5 * (angles[i] + angles[i + 1]);
-        }
-        made.back() = std::numbers::pi;
-        return made;
-    }();
-    const std::vector<double> edges(kept.begin(), kept.end());
+    const std::vector<double> edges(gradientEdges().begin(), gradientEdges().end());
     const std::vector<glm::dvec3> means = ringMeans(profile, edges);
     return {means.begin(), means.end()};
+}
+
+double spread(std::span<const glm::vec3> gradient) {
+    LODESTAR_EXPECT(gradient.size() == kGradientColumns, "the gradient has its columns");
+    double power = 0.0;
+    double moment = 0.0;
+    double above = 1.0; // cos of the ring's near edge
+    for (std::size_t i = 0; i < gradient.size(); ++i) {
+        const double below = std::cos(gradientEdges()[i + 1]);
+        const auto radiance = static_cast<double>(gradient[i].r + gradient[i].g + gradient[i].b);
+        const double ring = radiance * radiance * (above - below);
+        power += ring;
+        moment += ring * (2.0 - above - below); // |l - axis|^2 = 2 - 2 z, linear in z
+        above = below;
+    }
+    return power > 0.0 ? moment / power : 0.0;
 }
 
 glm::vec4 storedTexel(const RsrmTexels& texels, int column, int row) {

@@ -41,6 +41,10 @@ struct RsrmTexels {
 /// neighbour.
 [[nodiscard]] std::vector<glm::vec3> unfiltered(const RadianceProfile& profile);
 
+/// How wide a light is: the mean of |l - axis|^2 over its squared radiance, (r + g + b)^2, and
+/// solid angle, [0, 4]; 0 for one without light (SUN-4). @param gradient as unfiltered gives it
+[[nodiscard]] double spread(std::span<const glm::vec3> gradient);
+
 /// The rgb that a GPU reads at a texel, alpha 1. @pre column and row inside
 [[nodiscard]] glm::vec4 storedTexel(const RsrmTexels& texels, int column, int row);
 

@@ -2,6 +2,7 @@
 #include "plan/draw_plan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <tuple>
 #include <utility>
@@ -45,14 +46,22 @@ Features probeFeatures(const PlanInput& input, const ProbeChoice& choice) {
            (skies ? bit(Feature::ProbeSkies) : 0u);
 }
 
+/// The Phong exponent of the sharpest lookup that a draw makes in a sun's map (SUN-6).
+/// @param sharpest of its other lookups, seen along the surface: 1.294 s (LOOK-8)
+double sharpestInSuns(double sharpest) {
+    return std::max(sharpest, 0.315 * std::pow(sharpest / 1.294 + 1.0, 1.5));
+}
+
 Features featuresOf(const PlanInput& input, const DrawView& draw, Features lights,
                     const ProbeChoice& choice) {
     if (!draw.lit) {
         return draw.features;
     }
     Features features = draw.features | lights | probeFeatures(input, choice);
+    const bool suns = std::any_of(input.rsrmLights.begin(), input.rsrmLights.end(),
+                                  [](const RsrmLightView& light) { return !light.sky; });
     if (has(features, Feature::RsrmLights) && !input.rsrmPublished &&
-        draw.sharpest > input.rsrmGreatestExponent) {
+        (suns ? sharpestInSuns(draw.sharpest) : draw.sharpest) > input.rsrmGreatestExponent) {
         features |= bit(Feature::RsrmMirror);
     }
     if (draw.glossy && draw.specular != input.specular) {

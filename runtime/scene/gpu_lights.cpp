@@ -70,6 +70,7 @@ void GpuLights::keep(GpuLights&& before) {
         if (!painted && maps_) {
             light.uploaded = before.lights_[i].uploaded;
             light.scale = before.lights_[i].scale;
+            light.spread = before.lights_[i].spread;
         }
         if (!painted) {
             light.facing = std::move(before.lights_[i].facing);
@@ -144,6 +145,7 @@ void GpuLights::upload(std::size_t index) {
     const auto content = lighting::LightMap::contentOf(light.moment);
     const lighting::LightMap::Blend blend = light.map.blend(content);
     light.scale = blend.texels.scale;
+    light.spread = blend.spread;
     maps_.updateLayer(static_cast<int>(index), blend.texels.bytes);
     lamberts_.updateLayer(static_cast<int>(index), lighting::LightMap::lambertTexels(blend));
     gradients_.updateLayer(static_cast<int>(index), lighting::LightMap::gradientTexels(blend));
@@ -181,6 +183,7 @@ void GpuLights::describe(const plan::EffectPlan& plan, blocks::LodestarRsrmLight
         block.rsrmShadow[i].x = static_cast<float>(lit.shadow);
         block.rsrmScale[i].x = light.scale;
         block.rsrmScale[i].y = isSky(lit.light) ? 1.0f : 0.0f;
+        block.rsrmScale[i].z = static_cast<float>(light.spread);
     }
 }
 

@@ -94,6 +94,7 @@ private:
         lighting::DayMoment moment{};
         std::optional<lighting::LightMap::Content> uploaded{};
         float scale = 1.0f;               ///< of the uploaded map
+        double spread = 0.0;              ///< how wide what is uploaded is
         std::vector<glm::dvec3> facing{}; ///< facingIrradiance of its keys, made when asked for
         std::uint64_t painting = 0;
         std::optional<DrawnAt> drawn{}; ///< what its drawn points are of

@@ -25,6 +25,7 @@ layout(location = 0) out vec4 oRadiance; // premultiplied by coverage
 #include "host/material.glsl"
 #if LODESTAR_RSRM_LIGHTS
 #include "lodestar/rsrm.glsl"
+#include "lodestar/sun.glsl"
 #include "host/rsrm_hooks.glsl"
 #include "host/shadow.glsl"
 #if LODESTAR_REFERENCE
@@ -84,7 +85,17 @@ vec3 rsrmLights(LodestarSurface here) {
         glossy += visible * referenceGlossy(i, here);
 #else
         lambert += visible * lodestar_rsrmLambert(map, here.normal);
-        glossy += visible * lodestar_rsrm(map, lookup.direction, row);
+#if LODESTAR_RSRM_LAYOUT == 1
+        glossy += visible * lodestar_rsrm(map, lookup.direction, row); // as published
+#else
+        if (rsrmScale[i].y > 0.5) {
+            glossy += visible * lodestar_rsrm(map, lookup.direction, row);
+        } else {
+            LodestarSunLookup sun = lodestar_sunLookup(here.normal, here.view, here.exponent, lookup.direction,
+                                                       lookup.exponent, map.axis, rsrmScale[i].z);
+            glossy += visible * lodestar_rsrmAt(map, sun.halfChord, lodestar_rsrmRow(map, sun.exponent));
+        }
+#endif
 #endif
     }
     return lodestar_reflected(here, lambert, glossy);

@@ -83,6 +83,25 @@ LODESTAR_FN Real lodestar_blinnPhongNormaliser(Real exponent) {
     return (s + 2.0f) * (s + 4.0f) / (8.0f * LODESTAR_PI * (exp2(-0.5f * s) + s));
 }
 
+/// s + 2^(-s/2) times the albedo below: what the lobe gathers from the upper hemisphere (SUN-2; the part beyond
+/// the horizon is fitted, within 1.7 %).
+/// @param s Blinn-Phong exponent [0, 1e7]  @param nDotV [0, 1]
+LODESTAR_FN Real lodestar_blinnPhongGathered(Real s, Real nDotV) {
+    Real c = clamp(nDotV, Real(0.0f), Real(1.0f));
+    Real x = LODESTAR_LITERAL(0.9332) * c * sqrt(s);
+    Real kept = LODESTAR_LITERAL(1.1997) * s * x * inversesqrt(1.0f + x * x) / (s + LODESTAR_LITERAL(0.6083));
+    Real squared = c * c;
+    return squared * (s + exp2(-0.5f * s)) + (1.0f - squared) * (1.0f + kept);
+}
+
+/// The share of light from everywhere that (n.h)^s (n.l) times its normaliser reflects: 1 at n.v = 1 and for
+/// s = 0, (n.v)^2 for sharp lobes (SUN-2).
+/// @param exponent Blinn-Phong [0, 1e7]  @param nDotV [0, 1]
+LODESTAR_FN Real lodestar_blinnPhongAlbedo(Real exponent, Real nDotV) {
+    Real s = lodestar_repairExponent(exponent);
+    return lodestar_blinnPhongGathered(s, nDotV) / (s + exp2(-0.5f * s));
+}
+
 /// What multiplies max(r.l, 0)^s so that the lobe integrates to 1: (s + 1) / (2 pi).
 LODESTAR_FN Real lodestar_phongNormaliser(Real exponent) {
     return (lodestar_repairExponent(exponent) + 1.0f) / (2.0f * LODESTAR_PI);

@@ -23,19 +23,20 @@ LODESTAR_FN Real lodestar_cosinePower(Real x, Real s) {
     return x > 0.0f ? (s == 0.0f ? Real(1.0f) : exp2(s * log2(x))) : Real(0.0f);
 }
 
-/// cos^s of the angle between two unit vectors, from half their squared chord d = |a - b|^2 / 2 =
-/// 1 - cos: exp(s log(1 - d)), with the series of log(1 - d) below 1/100. A float cosine near 1 has
-/// steps of 6e-8, which s = 1e7 turns into 45 %; the chord has no such steps.
+/// log of the cosine of the angle between two unit vectors, from half their squared chord d = |a - b|^2 / 2
+/// = 1 - cos: log(1 - d), its series below 1/100. A float cosine near 1 has steps of 6e-8; the chord has no
+/// such steps. @param d [0, 1)
+LODESTAR_FN Real lodestar_logCosineFromChord(Real d) {
+    return d < LODESTAR_LITERAL(0.01)
+               ? -d * (1.0f + d * (0.5f + d * (LODESTAR_LITERAL(0.33333333333333333) +
+                                               d * (0.25f + d * LODESTAR_LITERAL(0.2)))))
+               : log2(1.0f - d) * LODESTAR_LITERAL(0.693147180559945309);
+}
+
+/// cos^s of that angle: exp(s log(1 - d)), by the chord because s = 1e7 turns a step of 6e-8 into 45 %.
 /// @param d [0, 2]  @param s [0, 1e7]
 LODESTAR_FN Real lodestar_cosinePowerFromChord(Real d, Real s) {
-    if (d >= 1.0f) {
-        return 0.0f;
-    }
-    Real logarithm = d < LODESTAR_LITERAL(0.01)
-                         ? -d * (1.0f + d * (0.5f + d * (LODESTAR_LITERAL(0.33333333333333333) +
-                                                         d * (0.25f + d * LODESTAR_LITERAL(0.2)))))
-                         : log2(1.0f - d) * LODESTAR_LITERAL(0.693147180559945309);
-    return exp(s * logarithm);
+    return d >= 1.0f ? Real(0.0f) : exp(s * lodestar_logCosineFromChord(d));
 }
 
 /// The same, from the two vectors.

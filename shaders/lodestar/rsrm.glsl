@@ -139,10 +139,9 @@ LODESTAR_FN vec3 lodestar_rsrmLambert(LodestarRsrm map, vec3 n) {
     return lodestar_host_rsrmLambert(0.5f - 0.5f * dot(n, map.axis), map.layer);
 }
 
-/// Mean radiance of a map over the Phong lobe about a direction: the glossy term's.
-/// @param r unit  @param row lodestar_rsrmRow of the lobe's exponent: maps of one layout share it
-LODESTAR_FN vec3 lodestar_rsrm(LodestarRsrm map, vec3 r, Real row) {
-    Real h = lodestar_rsrmHalfChord(r, map.axis);
+/// Mean radiance of a map over a Phong lobe at an angle to its axis.
+/// @param h sin of half that angle, [0, 1]  @param row lodestar_rsrmRow of the lobe's exponent
+LODESTAR_FN vec3 lodestar_rsrmAt(LodestarRsrm map, Real h, Real row) {
     Real last = map.rows - 1.0f;
     Real column = lodestar_rsrmColumn(map.layoutName, h, map.columns);
     vec3 filtered =
@@ -154,6 +153,12 @@ LODESTAR_FN vec3 lodestar_rsrm(LodestarRsrm map, vec3 r, Real row) {
     }
 #endif
     return filtered;
+}
+
+/// The same over the Phong lobe about a direction: the glossy term's.
+/// @param r unit  @param row lodestar_rsrmRow of the lobe's exponent: maps of one layout share it
+LODESTAR_FN vec3 lodestar_rsrm(LodestarRsrm map, vec3 r, Real row) {
+    return lodestar_rsrmAt(map, lodestar_rsrmHalfChord(r, map.axis), row);
 }
 
 LODESTAR_RSRM_END

@@ -28,6 +28,7 @@
 #include "lodestar/environment.glsl"
 #include "lodestar/probes.glsl"
 #include "lodestar/rsrm.glsl"
+#include "lodestar/sun.glsl"
 
 uniform samplerCube lodestar_environmentTexels;
 uniform samplerCube lodestar_irradianceTexels;
@@ -137,7 +138,13 @@ vec3 lodestar_lightsReflected(LodestarSurface here, LodestarShares shares) {
         LodestarRsrm map = lodestar_lightMap(i);
         float visible = lodestar_lightShare(i, map.axis, shares);
         lambert += visible * lodestar_rsrmLambert(map, here.normal);
-        glossy += visible * lodestar_rsrm(map, lookup.direction, lodestar_rsrmRow(map, lookup.exponent));
+        if (lodestar_isSky(i)) {
+            glossy += visible * lodestar_rsrm(map, lookup.direction, lodestar_rsrmRow(map, lookup.exponent));
+        } else {
+            LodestarSunLookup sun = lodestar_sunLookup(here.normal, here.view, here.exponent, lookup.direction,
+                                                       lookup.exponent, map.axis, lodestar_spreads[i / 4][i % 4]);
+            glossy += visible * lodestar_rsrmAt(map, sun.halfChord, lodestar_rsrmRow(map, sun.exponent));
+        }
     }
     return lodestar_reflected(here, lambert, glossy);
 }

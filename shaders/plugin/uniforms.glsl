@@ -28,6 +28,7 @@ LODESTAR_UNIFORM vec4 lodestar_irradianceCube;  ///< the same of the irradiance 
 LODESTAR_UNIFORM vec4 lodestar_mapSize; ///< columns, rows, exponents of the first and the last row
 LODESTAR_UNIFORM vec4 lodestar_mapRows; ///< first octave, rows an octave, columns of the two lines
 LODESTAR_UNIFORM vec4 lodestar_axes[LODESTAR_MAX_LIGHTS_SHOWN]; ///< xyz unit, w layer
+LODESTAR_UNIFORM vec4 lodestar_spreads[LODESTAR_MAX_LIGHTS_SHOWN / 4]; ///< how wide each is, four a vector
 
 #ifdef __cplusplus
 };

@@ -50,7 +50,7 @@ void main() {
     }
     oColor = vec4(sum, 1.0);
 })";
-/// As the built-in renderer's fragment stage.
+/// As the built-in renderer's fragment stage; the first light is the sun.
 const char* kLights = R"(
 void main() {
     LodestarSurface s = here();
@@ -63,7 +63,13 @@ void main() {
     for (int i = 0; i < LODESTAR_RSRM_LIGHTS; ++i) {
         LodestarRsrm map = rsrmLight(i);
         lambert += lodestar_rsrmLambert(map, s.normal);
-        glossy += lodestar_rsrm(map, lookup.direction, row);
+        if (SUN_IS_ROUND || i > 0) {
+            glossy += lodestar_rsrm(map, lookup.direction, row);
+        } else {
+            LodestarSunLookup sun = lodestar_sunLookup(s.normal, s.view, s.exponent, lookup.direction,
+                                                       lookup.exponent, map.axis, rsrmScale[i].z);
+            glossy += lodestar_rsrmAt(map, sun.halfChord, lodestar_rsrmRow(map, sun.exponent));
+        }
     }
     oColor = vec4(lodestar_reflected(s, lambert, glossy), 1.0);
 })";
@@ -74,6 +80,7 @@ struct Variant {
     const lighting::RsrmLayout* layout = nullptr;
     std::size_t lights = 0;
     bool mirror = false; ///< its lobes may be sharper than the last row
+    bool round = false;  ///< its sun is read as if lobes were round
     scene::GpuLights gpu{};
     gl::Buffer block{};
     gl::Program program{};
@@ -84,10 +91,11 @@ std::string fragmentText(const Variant& variant) {
     const gl::Defines defines = {
         {"LODESTAR_RSRM_LIGHTS", std::to_string(std::max(variant.lights, std::size_t{1}))},
         {"LODESTAR_RSRM_LAYOUT", variant.gpu.published() ? "1" : "0"},
-        {"LODESTAR_RSRM_MIRROR", variant.mirror ? "1" : "0"}};
+        {"LODESTAR_RSRM_MIRROR", variant.mirror ? "1" : "0"},
+        {"SUN_IS_ROUND", variant.round || variant.gpu.published() ? "true" : "false"}};
     std::string text = "#version 330 core\n";
     for (const char* file : {"host/blocks.glsl", "lodestar/environment.glsl", "lodestar/rsrm.glsl",
-                             "host/rsrm_hooks.glsl"}) {
+                             "lodestar/sun.glsl", "host/rsrm_hooks.glsl"}) {
         const std::string part = *gl::assembleShader(file, 330, defines);
         text += part.substr(part.find('\n') + 1);
     }
@@ -215,6 +223,8 @@ int main(int argc, char** argv) {
     }
     variants.push_back({"rsrm, mirrors", kLights, &lighting::kRsrm, 1, true});
     variants.push_back({"rsrm, mirrors", kLights, &lighting::kRsrm, 2, true});
+    variants.push_back({"rsrm, round", kLights, &lighting::kRsrm, 1, false, true});
+    variants.push_back({"rsrm, round", kLights, &lighting::kRsrm, 2, false, true});
     for (Variant& variant : bare) {
         variants.push_back(std::move(variant));
     }

@@ -9,12 +9,14 @@
 #include <glm/gtc/constants.hpp>
 
 #include "lighting/day.h"
+#include "lighting/rsrm.h"
 #include "scene/renderer.h"
 #include "support/gl_fixture.h"
 #include "support/shapes.h"
 
 #define LODESTAR_DOUBLE_PRECISION
 #include "lodestar/lobes.glsl"
+#include "lodestar/sun.glsl"
 
 namespace lodestar {
 namespace {
@@ -216,14 +218,16 @@ RoundLobe roundLobe(const glm::dvec3& v, double exponent) {
             shader_double::lodestar_lookupExponent(exponent, v.z)};
 }
 
-// What the error view of a varnished floor shows under a low sun: the map is the round lobe's
-// integral within .0058 of its peak, docs/derivations/rsrm.md's table for a disc of .27 degrees,
-// and .0006 for 8-bit filter weights; the reference is the true lobe's within the .5 % of
-// docs/estimators.md.
-TEST_F(ReferenceLights, UnderALowSunAFloorIsOffByItsLobesShapeAlone) {
+// A varnished floor under a low sun, whose highlight is nowhere near round. The map is off by .0058
+// of its peak (docs/derivations/rsrm.md's table for a disc of .27 degrees) and .0006 for 8-bit
+// filter weights, the albedo by 1.7 % of the value, the lookup by .01 of the brightest
+// (docs/derivations/sun.md); the reference by the .5 % of docs/estimators.md.
+TEST_F(ReferenceLights, UnderALowSunAFloorsHighlightIsItsLobes) {
     constexpr double kExponent = 24.0, kSun = 76.0;
     lighting::DayLight low = sun();
     low.axis = {std::sin(glm::radians(kSun)), 0.0, std::cos(glm::radians(kSun))};
+    const double spread = lighting::spread(lighting::unfiltered(
+        lighting::RadianceProfile(low.keys.front().gradient, lighting::LightKind::Sun)));
     const scene::Scene scene = scene::buildScene(testing::fileOf(
         testing::square(), testing::blinnPhong(glm::vec3(0.0f), glm::vec3(1.0f), 24.0f)));
     auto made = renderer(scene, low);
@@ -233,20 +237,25 @@ TEST_F(ReferenceLights, UnderALowSunAFloorIsOffByItsLobesShapeAlone) {
             const scene::View view = towards(scene, angle, 180.0f + aside);
             ASSERT_TRUE(made->render(view, settings()).ok());
             const glm::dvec3 v = glm::normalize(glm::dvec3(view.position));
-            const RoundLobe looked = roundLobe(v, kExponent);
+            const RoundLobe round = roundLobe(v, kExponent);
+            const double sharp =
+                shader_double::lodestar_sunLookup(glm::dvec3(0, 0, 1), v, kExponent,
+                                                  round.direction, round.exponent, low.axis, spread)
+                    .exponent;
             const double exact =
                 integral(low, low.axis,
                          [&](const glm::dvec3& l) { return lobe(l, v, kExponent); }) /
                 lobeIntegral(v, kExponent);
-            const double round = integral(low, low.axis, looked);
-            const double peak = integral(low, low.axis, RoundLobe{low.axis, looked.exponent});
+            const double peak = integral(low, low.axis, RoundLobe{low.axis, sharp});
             brightest = std::max(brightest, exact);
             const double mapped = pixel(*made, view, 0);
-            const double reference = pixel(*made, view, 1024);
-            std::printf("%2.0f degrees, %2.0f aside: %.4f, the map %.4f\n",
-                        static_cast<double>(angle), static_cast<double>(aside), exact, mapped);
-            EXPECT_NEAR(mapped, round, 0.0064 * peak) << angle << ", " << aside;
-            EXPECT_NEAR(reference, exact, 0.005 * brightest) << angle << ", " << aside;
+            std::printf("%2.0f degrees, %2.0f aside: %.4f, the map %.4f, a round lobe %.4f\n",
+                        static_cast<double>(angle), static_cast<double>(aside), exact, mapped,
+                        integral(low, low.axis, round));
+            EXPECT_NEAR(mapped, exact, 0.0064 * peak + 0.017 * exact + 0.01 * brightest)
+                << angle << ", " << aside;
+            EXPECT_NEAR(pixel(*made, view, 1024), exact, 0.005 * brightest)
+                << angle << ", " << aside;
         }
     }
 }

@@ -48,6 +48,9 @@ std::vector<GlslCase> volumeCases();
 /// a share; p3 reach, narrow, widening; p4 p1's tangent; p5 cosine, sine.
 std::vector<GlslCase> tapCases();
 /// p0 unit and any sharpness, p1 the same, p2.x d in [0, 2], p2.y an exponent.
+std::vector<GlslCase> logChordCases(); ///< d in [0, 0.999]
+/// p0 n and exponent, p1 v, p2 a sun's axis and spread, p3 the round lookup
+std::vector<GlslCase> sunCases();
 std::vector<GlslCase> sgCases();
 std::vector<GlslCase> shareCases(); ///< p0 w0, w1, f0, f1; p1.x open
 

@@ -82,14 +82,14 @@ Tolerance rsrmMirrorShareTolerance(const GlslCase& p, const glm::dvec4&, int) {
     return {shareError(static_cast<double>(p[5].x), static_cast<double>(p[2].w)), 0.0, 0.0, 0.0};
 }
 
+namespace {
+
 // The hook answers column, row and layer 3; refined maps square them, with 2 products, and mix with
 // the gradient's answer, 100 u2, 50 and 3, by the share: 1 - t, two products and a sum of each.
-Tolerance rsrmTolerance(const GlslCase& p, const glm::dvec4& v, int) {
+Tolerance lookupError(const GlslCase& p, const glm::dvec4& v, double h, double dh) {
     const double layout = static_cast<double>(p[1].w);
     const double columns = static_cast<double>(p[2].x);
     const double last = static_cast<double>(p[2].y) - 1.0;
-    const double h = shader_double::lodestar_rsrmHalfChord(glm::dvec3(p[0]), glm::dvec3(p[1]));
-    const double dh = 8.0 * u * h;
     const double dc = columnError(layout, h, dh, columns);
     const double dr = rowError(p);
     if (layout > 0.5) {
@@ -108,6 +108,17 @@ Tolerance rsrmTolerance(const GlslCase& p, const glm::dvec4& v, int) {
                   100.0 * refinedColumnError(h, dh)),
             mixed(last * last, 2.0 * last * dr + dr * dr, 50.0, 0.0), mixed(9.0, 0.0, 3.0, 0.0),
             0.0};
+}
+
+} // namespace
+
+Tolerance rsrmAtTolerance(const GlslCase& p, const glm::dvec4& v, int) {
+    return lookupError(p, v, static_cast<double>(p[3].w), 0.0);
+}
+
+Tolerance rsrmTolerance(const GlslCase& p, const glm::dvec4& v, int) {
+    const double h = shader_double::lodestar_rsrmHalfChord(glm::dvec3(p[0]), glm::dvec3(p[1]));
+    return lookupError(p, v, h, 8.0 * u * h);
 }
 
 // A dot product of unit vectors by 3 u, halved; a difference from 1/2, another from 1.
