@@ -275,11 +275,11 @@ core::Result<Json> objectOf(std::string_view line) {
     return object;
 }
 
-core::Result<Command> commandOf(const Json& object, const Model& model) {
+core::Result<Command> commandOf(const Json& object, const Identities& ids) {
     const auto name = object["do"].get<std::string>();
     for (Command& command : eachType()) {
         if (nameIn(command) == name) {
-            Reader reader(object, {}, model.ids());
+            Reader reader(object, {}, ids);
             std::visit([&](auto& each) { describe(reader, each); }, command);
             if (const auto error = reader.end()) {
                 return *error;
@@ -303,7 +303,7 @@ core::Result<void> runLine(std::string_view line, Model& model) {
         const bool done = name == "Undo" ? model.undo() : model.redo();
         return done ? core::Result<void>() : core::refused("there is no step for " + name);
     }
-    const auto command = commandOf(*object, model);
+    const auto command = commandOf(*object, model.ids());
     if (!command) {
         return command.error();
     }
@@ -314,20 +314,25 @@ core::Result<void> runLine(std::string_view line, Model& model) {
 } // namespace
 
 core::Result<std::string> writeCommand(const Command& command, const Model& model) {
+    return writeCommand(command, model.ids());
+}
+
+core::Result<std::string> writeCommand(const Command& command, const Identities& ids) {
     Command copy = command;
-    Writer writer(model.ids());
+    Writer writer(ids);
     std::visit([&](auto& each) { describe(writer, each); }, copy);
     if (writer.missing) {
         return core::refused("the command names a part that the document does not have");
     }
     std::string line = writer.object.dump(-1, ' ', false, Json::error_handler_t::replace);
-    const auto read = readCommand(line, model);
+    const auto object = objectOf(line);
+    const auto read = object ? commandOf(*object, ids) : object.error();
     return read ? core::Result<std::string>(std::move(line)) : read.error();
 }
 
 core::Result<Command> readCommand(std::string_view line, const Model& model) {
     const auto object = objectOf(line);
-    return object ? commandOf(*object, model) : object.error();
+    return object ? commandOf(*object, model.ids()) : object.error();
 }
 
 core::Result<std::size_t> runScript(std::string_view text, Model& model) {
@@ -349,6 +354,19 @@ core::Result<std::size_t> runScript(std::string_view text, Model& model) {
         ++commands;
     }
     return commands;
+}
+
+std::string writeHistory(const Model& model) {
+    std::string text;
+    model.visitDone([&](std::string_view step, const Command& command, const Identities& found,
+                        const document::Document& left) {
+        auto line = writeCommand(command, found);
+        if (!line) {
+            line = writeCommand(ReplaceDocument{left}, found);
+        }
+        text += "# " + std::string(step) + "\n" + (line ? *line : std::string()) + "\n";
+    });
+    return text;
 }
 
 std::vector<std::string_view> commandNames() {

@@ -20,6 +20,8 @@ namespace lodestar::model {
 /// @errors InputRefused: it names a part that the document does not have, or holds numbers or parts
 /// that no text may (a NaN; a stop out of its range, which the command itself would bring into it)
 [[nodiscard]] core::Result<std::string> writeCommand(const Command& command, const Model& model);
+/// The same. @param ids of the document as the command finds it
+[[nodiscard]] core::Result<std::string> writeCommand(const Command& command, const Identities& ids);
 
 /// The command of a line. Whether its values are in range says `Model::execute`.
 /// @param model as the command finds it
@@ -31,6 +33,11 @@ namespace lodestar::model {
 /// @return how many commands it had
 /// @errors InputRefused with the line: the model holds what the lines before it did
 [[nodiscard]] core::Result<std::size_t> runScript(std::string_view text, Model& model);
+
+/// The steps that undo can take as a script, each after its name as a comment: carried out on the
+/// document as it was before them it gives the document's bytes as they are. A command that has no
+/// text is written as the document that it left.
+[[nodiscard]] std::string writeHistory(const Model& model);
 
 /// The names that `do` may have, in the order of Command's types.
 [[nodiscard]] std::vector<std::string_view> commandNames();

@@ -55,7 +55,7 @@ Id Model::keyOf(Id stop) const {
 core::Result<Outcome> Model::execute(const Command& command, MergeToken token) {
     const bool joins = token != 0 && token == openToken_;
     Part* const last = joins ? &steps_[done_ - 1].parts.back() : nullptr;
-    const bool replaces = last != nullptr && last->type == command.index();
+    const bool replaces = last != nullptr && last->command.index() == command.index();
     State base = state_;
     if (replaces) {
         model::apply(last->change, Direction::Back, base);
@@ -78,7 +78,7 @@ core::Result<Outcome> Model::execute(const Command& command, MergeToken token) {
         if (replaces) {
             steps_[done_ - 1].parts.pop_back();
         }
-        keep(command.index(), nameOf(command), std::move(change), joins);
+        keep(command, std::move(change), joins);
         openToken_ = token;
     } else if (replaces) {
         dropLastPart();
@@ -90,16 +90,16 @@ core::Result<Outcome> Model::execute(const Command& command, MergeToken token) {
     return Outcome{changed, changed ? std::move(*created) : std::vector<Id>()};
 }
 
-void Model::keep(std::size_t type, std::string_view name, Change change, bool joins) {
+void Model::keep(const Command& command, Change change, bool joins) {
     steps_.resize(done_); // what was undone is gone
     if (!joins) {
-        steps_.push_back({name, {}, stamp_, 0});
+        steps_.push_back({nameOf(command), {}, stamp_, 0});
         ++done_;
         ++strokes_;
     }
     stamp_ = ++lastStamp_;
     steps_[done_ - 1].after = stamp_;
-    steps_[done_ - 1].parts.push_back({type, std::move(change)});
+    steps_[done_ - 1].parts.push_back({command, std::move(change)});
 }
 
 void Model::dropLastPart() {
@@ -154,11 +154,31 @@ std::string_view Model::redoName() const {
     return done_ == steps_.size() ? std::string_view() : steps_[done_].name;
 }
 
+void Model::visitDone(const Visit& visit) const {
+    State state = state_;
+    for (std::size_t i = done_; i-- > 0;) {
+        const std::vector<Part>& parts = steps_[i].parts;
+        for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
+            model::apply(part->change, Direction::Back, state);
+        }
+    }
+    for (std::size_t i = 0; i < done_; ++i) {
+        for (const Part& part : steps_[i].parts) {
+            const Identities found = state.ids;
+            model::apply(part.change, Direction::Forth, state);
+            visit(steps_[i].name, part.command, found, state.document);
+        }
+    }
+}
+
 std::size_t Model::historyBytes() const {
     std::size_t sum = steps_.capacity() * sizeof(Step);
     for (const Step& step : steps_) {
         for (const Part& part : step.parts) {
-            sum += part.change.bytes();
+            // What a command brings is what it changes; a stroke has its path besides.
+            const auto* const stroke = std::get_if<BrushStroke>(&part.command);
+            sum += sizeof(Part) + 2 * part.change.bytes() +
+                   (stroke != nullptr ? stroke->path.capacity() * sizeof(double) : 0);
         }
     }
     return sum;

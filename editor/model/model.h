@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -78,6 +79,12 @@ public:
     [[nodiscard]] std::size_t redoCount() const { return steps_.size() - done_; }
     /// Steps made, undone and redone since the start: grows with what a user would call a stroke.
     [[nodiscard]] std::uint64_t strokes() const { return strokes_; }
+    /// A command of a step: the names that it found, the document that it left.
+    using Visit = std::function<void(std::string_view step, const Command& command,
+                                     const Identities& found, const document::Document& left)>;
+    /// Goes through the commands of the steps that undo can take, from the first on; of those that
+    /// joined, those that count.
+    void visitDone(const Visit& visit) const;
     /// Bytes that the steps keep, about.
     [[nodiscard]] std::size_t historyBytes() const;
 
@@ -100,7 +107,7 @@ private:
     static constexpr std::uint64_t kNever = ~std::uint64_t{0};
 
     struct Part {
-        std::size_t type = 0; ///< of Command
+        Command command;
         Change change;
     };
     struct Step {
@@ -115,7 +122,7 @@ private:
     void selectCreated(const std::vector<Id>& created);
     /// Takes the last command, whose change is undone already, out of the last step.
     void dropLastPart();
-    void keep(std::size_t type, std::string_view name, Change change, bool joins);
+    void keep(const Command& command, Change change, bool joins);
 
     State state_;
     std::vector<Step> steps_;
