@@ -54,7 +54,12 @@ core::Result<void> GpuEnvironment::prepare(gl::Device& device,
     if (parts == lighting::PreparedParts{}) {
         return {};
     }
-    const lighting::PreparedEnvironment made = lighting::prepare(base_, parts);
+    return upload(device, lighting::prepare(base_, parts), parts);
+}
+
+core::Result<void> GpuEnvironment::upload(gl::Device& device,
+                                          const lighting::PreparedEnvironment& made,
+                                          const lighting::PreparedParts& parts) {
     struct Upload {
         bool lighting::PreparedParts::*part;
         const lighting::Cubemap& map;

@@ -36,6 +36,10 @@ public:
     /// Makes and uploads parts. @errors NoOpenGl if the driver has no memory for one
     [[nodiscard]] core::Result<void> prepare(gl::Device& device,
                                              const lighting::PreparedParts& parts);
+    /// Uploads parts that were made of its map, by whatever thread. @errors as prepare
+    [[nodiscard]] core::Result<void> upload(gl::Device& device,
+                                            const lighting::PreparedEnvironment& made,
+                                            const lighting::PreparedParts& parts);
 
     /// Fills the block's part that describes the cubes the settings read.
     void describe(const RenderSettings& settings, blocks::LodestarFrame& block) const;

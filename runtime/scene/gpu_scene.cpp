@@ -57,44 +57,40 @@ glm::vec3 dielectricF0(const io::GltfMaterial& material) {
 
 } // namespace
 
-core::Result<GpuScene> GpuScene::make(gl::Device& device, const Scene& scene) {
-    GpuScene result;
-    result.geometry_ = GpuGeometry(device, scene);
+std::vector<TextureUse> texturesOf(const Scene& scene) {
+    std::vector<TextureUse> uses;
     for (const io::GltfMaterial& material : scene.materials) {
         for (const TextureSlot& slot : slotsOf(material)) {
-            if (auto added = result.addTexture(device, scene, *slot.reference, slot.encoding);
-                !added) {
-                return added.error();
+            if (slot.reference->texture != io::kNone) {
+                uses.push_back({slot.reference->texture, slot.encoding});
             }
         }
     }
-    return result;
+    return uses;
 }
 
 GpuScene GpuScene::makeBeside(gl::Device& device, const Scene& scene, const GpuScene& other) {
-    GpuScene result;
-    result.geometry_ = GpuGeometry(device, scene);
+    GpuScene result(device, scene);
     result.textures_ = other.textures_;
     return result;
 }
 
 core::Result<void> GpuScene::addTexture(gl::Device& device, const Scene& scene,
-                                        const io::GltfTextureRef& reference,
-                                        gl::TexelEncoding encoding) {
-    if (reference.texture == io::kNone || textures_->count({reference.texture, encoding}) > 0) {
+                                        const TextureUse& use) {
+    if (textures_->count({use.texture, use.encoding}) > 0) {
         return {};
     }
-    const io::GltfTexture& texture = scene.textures[static_cast<std::size_t>(reference.texture)];
+    const io::GltfTexture& texture = scene.textures[static_cast<std::size_t>(use.texture)];
     core::Texels white(1, 1);
     white.bytes().assign(4, 255);
     const core::Texels& image =
         texture.image == io::kNone ? white : scene.images[static_cast<std::size_t>(texture.image)];
-    const std::string label = "texture " + std::to_string(reference.texture);
-    auto made = gl::Texture::make2D(device, image, encoding, samplerOf(texture), label.c_str());
+    const std::string label = "texture " + std::to_string(use.texture);
+    auto made = gl::Texture::make2D(device, image, use.encoding, samplerOf(texture), label.c_str());
     if (!made) {
         return made.error();
     }
-    textures_->emplace(std::pair(reference.texture, encoding), std::move(*made));
+    textures_->emplace(std::pair(use.texture, use.encoding), std::move(*made));
     return {};
 }
 

@@ -60,9 +60,22 @@ inline constexpr std::array<const char*, 23> kSamplerNames = {
     "uProbeIrradiance",  "uReferenceLights",
     "uDrawnLights"};
 
+/// A texture of a scene and how its numbers are stored: one image may be both.
+struct TextureUse {
+    int texture = 0; ///< of the scene's
+    gl::TexelEncoding encoding = gl::TexelEncoding::Linear;
+};
+/// Those that a scene's materials name, some twice.
+[[nodiscard]] std::vector<TextureUse> texturesOf(const Scene& scene);
+
 class GpuScene {
 public:
-    [[nodiscard]] static core::Result<GpuScene> make(gl::Device& device, const Scene& scene);
+    GpuScene() = default;
+    /// The vertices alone: textures are added before anything is drawn.
+    GpuScene(gl::Device& device, const Scene& scene) : geometry_(device, scene) {}
+    /// Uploads a texture that is not there yet. @errors NoOpenGl if the driver has no memory for it
+    [[nodiscard]] core::Result<void> addTexture(gl::Device& device, const Scene& scene,
+                                                const TextureUse& use);
     /// With the textures of another scene, which the materials' references name.
     [[nodiscard]] static GpuScene makeBeside(gl::Device& device, const Scene& scene,
                                              const GpuScene& other);
@@ -72,10 +85,6 @@ public:
     void bindTextures(const io::GltfMaterial& material) const;
 
 private:
-    [[nodiscard]] core::Result<void> addTexture(gl::Device& device, const Scene& scene,
-                                                const io::GltfTextureRef& reference,
-                                                gl::TexelEncoding encoding);
-
     GpuGeometry geometry_;
     using Textures = std::map<std::pair<int, gl::TexelEncoding>, gl::Texture>;
     std::shared_ptr<Textures> textures_ = std::make_shared<Textures>();

@@ -159,9 +159,28 @@ public:
                                                    const std::optional<ReferenceTaps>& taps);
 
 private:
+    friend class RendererUpload;
     struct State;
     explicit Renderer(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
+};
+
+/// A renderer in the making: with each step a part of its scene goes to the GPU, so that others can
+/// draw in between.
+class RendererUpload {
+public:
+    /// @param scene as the renderer's
+    RendererUpload(gl::Device& device, const Scene& scene);
+    ~RendererUpload();
+    /// Uploads the vertices, then a texture at a time.
+    /// @return the renderer once all is there, null before  @errors as Renderer::make
+    [[nodiscard]] core::Result<std::unique_ptr<Renderer>> step();
+    /// Of its steps that are done, [0, 1].
+    [[nodiscard]] double share() const;
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
 };
 
 } // namespace lodestar::scene

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a renderer is told of its scene and its light, and what it tells of its light probes.
+// How a renderer is made, what it is told of its scene and its light, and what it tells of its
+// light probes.
 #include "scene/renderer_state.h"
 
 namespace lodestar::scene {
@@ -9,22 +10,62 @@ Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Renderer::~Renderer() = default;
 
 core::Result<std::unique_ptr<Renderer>> Renderer::make(gl::Device& device, const Scene& scene) {
-    auto uploaded = GpuScene::make(device, scene);
-    if (!uploaded) {
-        return uploaded.error();
+    RendererUpload upload(device, scene);
+    for (;;) {
+        auto made = upload.step();
+        if (!made || *made) {
+            return made;
+        }
     }
-    auto deformation = GpuDeformation::make(device, scene, drawItems(scene));
+}
+
+struct RendererUpload::Parts {
+    Parts(gl::Device& glDevice, const Scene& drawn)
+        : device(glDevice), scene(drawn), textures(texturesOf(drawn)) {}
+
+    gl::Device& device;
+    const Scene& scene;
+    std::vector<TextureUse> textures;
+    std::optional<GpuScene> uploaded; ///< once there are its vertices
+    std::size_t next = 0;             ///< of the textures
+};
+
+RendererUpload::RendererUpload(gl::Device& device, const Scene& scene)
+    : parts_(std::make_unique<Parts>(device, scene)) {}
+RendererUpload::~RendererUpload() = default;
+
+core::Result<std::unique_ptr<Renderer>> RendererUpload::step() {
+    Parts& parts = *parts_;
+    if (!parts.uploaded) {
+        parts.uploaded.emplace(parts.device, parts.scene);
+        return std::unique_ptr<Renderer>();
+    }
+    if (parts.next < parts.textures.size()) {
+        if (auto added =
+                parts.uploaded->addTexture(parts.device, parts.scene, parts.textures[parts.next++]);
+            !added) {
+            return added.error();
+        }
+        return std::unique_ptr<Renderer>();
+    }
+    auto deformation = GpuDeformation::make(parts.device, parts.scene, drawItems(parts.scene));
     if (!deformation) {
         return deformation.error();
     }
+    using State = Renderer::State;
     auto state =
-        std::make_unique<State>(device, scene, std::move(*uploaded), std::move(*deformation),
-                                std::make_shared<State::DistantLight>());
+        std::make_unique<State>(parts.device, parts.scene, std::move(*parts.uploaded),
+                                std::move(*deformation), std::make_shared<State::DistantLight>());
     if (!state->observer.empty()) {
         state->probeWarnings.add("material's emission outside [0, 1e9], repaired in light probes",
-                                 brokenEmissions(scene));
+                                 brokenEmissions(parts.scene));
     }
     return std::unique_ptr<Renderer>(new Renderer(std::move(state)));
+}
+
+double RendererUpload::share() const {
+    const std::size_t done = (parts_->uploaded ? 1 : 0) + parts_->next;
+    return static_cast<double>(done) / static_cast<double>(parts_->textures.size() + 2);
 }
 
 core::Result<std::unique_ptr<Renderer>> Renderer::makeBeside(gl::Device& device, const Scene& scene,

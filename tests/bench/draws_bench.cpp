@@ -124,9 +124,11 @@ core::Result<Naive> makeNaive(gl::Device& device, const scene::Scene& scene) {
     if (!program) {
         return program.error();
     }
-    auto textures = scene::GpuScene::make(device, scene);
-    if (!textures) {
-        return textures.error();
+    scene::GpuScene textures(device, scene);
+    for (const scene::TextureUse& use : scene::texturesOf(scene)) {
+        if (auto added = textures.addTexture(device, scene, use); !added) {
+            return added.error();
+        }
     }
     std::vector<Naive::Mesh> meshes;
     for (const io::GltfMesh& mesh : scene.meshes) {
@@ -149,7 +151,7 @@ core::Result<Naive> makeNaive(gl::Device& device, const scene::Scene& scene) {
     const scene::blocks::LodestarMaterial block{};
     return Naive{std::move(*program), gl::Buffer(device, gl::BufferKind::Uniform, bytes),
                  gl::Buffer(device, gl::BufferKind::Uniform, std::as_bytes(std::span(&block, 1))),
-                 std::move(*textures), std::move(meshes)};
+                 std::move(textures), std::move(meshes)};
 }
 
 struct Row {
