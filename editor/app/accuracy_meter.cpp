@@ -6,14 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <utility>
 
-#include <glm/geometric.hpp>
-
+#include "app/accuracy_truth.h"
 #include "lighting/accuracy.h"
 #include "lighting/day_lookup.h"
-#include "lighting/drawn_light.h"
 #include "lighting/error_forecast.h"
 #include "lodestar/lobes.glsl"
 
@@ -38,111 +35,31 @@ double lookupExponent(double exponent) {
     return static_cast<double>(shader::lodestar_lookupExponent(static_cast<float>(exponent), 1.0f));
 }
 
-glm::dvec3 evenDirection(int i, int count) {
-    const double z = 1.0 - (2.0 * i + 1.0) / count;
-    const double angle = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
-    const double r = std::sqrt(std::max(1.0 - z * z, 0.0));
-    return {r * std::cos(angle), z, r * std::sin(angle)};
-}
-
-/// A direction in the Phong lobe about another, by two numbers of [0, 1).
-glm::dvec3 inLobe(const glm::dvec3& about, double exponent, double u, double turn) {
-    const double cosine = std::pow(1.0 - u, 1.0 / (exponent + 1.0));
-    const double sine = std::sqrt(std::max(1.0 - cosine * cosine, 0.0));
-    const glm::dvec3 x = glm::normalize(glm::cross(
-        std::abs(about.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0), about));
-    const double azimuth = 2.0 * std::numbers::pi * turn;
-    return glm::normalize(
-        cosine * about + sine * (std::cos(azimuth) * x + std::sin(azimuth) * glm::cross(about, x)));
-}
-
-double sumOf(const glm::dvec3& radiance) {
-    return radiance.r + radiance.g + radiance.b;
-}
-
-/// Directions and what lights shine into lobes about them.
-struct Truth {
-    std::vector<lighting::MeasuredDirection> directions;
-    std::vector<glm::dvec3> radiance;
-};
-
-/// A light as it is drawn from.
-struct Drawn {
-    std::vector<glm::dvec3> points;
-    double sum = 0.0;
-};
-
-std::vector<Drawn> drawnLights(const std::vector<lighting::DayLight>& lights, double hour,
-                               int count) {
-    std::vector<Drawn> all;
-    for (const lighting::DayLight& light : lights) {
-        const lighting::DayMoment moment = lighting::momentAt(light, hour);
-        if (moment.visibility <= 0.0) {
-            continue; // as ReferenceDay
-        }
-        const lighting::DrawnLight drawn = lighting::drawnLight(light, moment, count);
-        all.push_back({{}, drawn.sum});
-        for (const lighting::DrawnTexel& point : drawn.points) {
-            all.back().points.emplace_back(point.direction);
-        }
-    }
-    return all;
-}
-
-/// Half of the directions even over the sphere, half drawn by what the lobes get: points of each
-/// light moved by the lobe itself, whose density is the lobe's mean over that light's sum.
-/// @param advance called once a direction; false: stop
-template <class Advance>
-Truth truthOf(const lighting::ReferenceDay& reference, const std::vector<Drawn>& drawn, int even,
-              double exponent, const Advance& advance) {
-    Truth truth;
-    std::vector<glm::dvec3> directions;
-    for (int i = 0; i < even; ++i) {
-        directions.push_back(evenDirection(i, even));
-    }
-    for (const Drawn& light : drawn) {
-        for (std::size_t i = 0; i < light.points.size(); ++i) {
-            const double u = (static_cast<double>(i * 7 % light.points.size()) + 0.5) /
-                             static_cast<double>(light.points.size());
-            const double turn = 0.7548776662466927 * static_cast<double>(i + 1);
-            directions.push_back(
-                inLobe(glm::normalize(light.points[i]), exponent, u, turn - std::floor(turn)));
-        }
-    }
-    double weights = 0.0;
-    for (const glm::dvec3& direction : directions) {
-        if (!advance()) {
-            return {};
-        }
-        double density = even / (4.0 * std::numbers::pi);
-        glm::dvec3 sum(0.0);
-        for (std::size_t light = 0; light < reference.count(); ++light) {
-            const glm::dvec3 part = reference(light, direction, exponent);
-            sum += part;
-            density += drawn[light].sum > 0.0 ? static_cast<double>(drawn[light].points.size()) *
-                                                    sumOf(part) / drawn[light].sum
-                                              : 0.0;
-        }
-        truth.directions.push_back({direction, 1.0 / density});
-        truth.radiance.push_back(sum);
-        weights += 1.0 / density;
-    }
-    for (lighting::MeasuredDirection& direction : truth.directions) {
-        direction.weight /= weights;
-    }
-    return truth;
-}
-
 } // namespace
 
 struct AccuracyMeter::Work {
     Subject subject;
+    std::vector<Worn> asked; ///< of the frames' thread alone: its materials, as they are used now
     std::atomic<bool> cancelled{false};
     std::mutex mutex; ///< of what follows
+    Worn worst;       ///< of the subject's; it stands once a line has an error
+    std::shared_ptr<const lighting::PreparedEnvironment>
+        made; ///< likewise; null: of no environment
     ui::AccuracyView view;
     bool news = true;
     bool measured = false; ///< the thread is done
     std::size_t steps = 1, done = 0;
+
+    /// The material that is measured. @pre the mutex is held, or nobody else has the work yet
+    void wear(const Worn& worn) {
+        worst = worn;
+        view.material = worn.material;
+        view.exponent = lookupExponent(worn.exponent);
+        for (ui::EstimateLine& line : view.lines) {
+            line.used = line.name == worn.used;
+        }
+        news = true;
+    }
 };
 
 /// On the thread.
@@ -177,6 +94,64 @@ private:
         work.news = true;
     }
 
+    [[nodiscard]] static double exponentOf(Work& work) {
+        const std::lock_guard lock(work.mutex);
+        return work.view.exponent;
+    }
+    /// How many steps more there are than of one material.
+    [[nodiscard]] static std::size_t stepsOfChoice(const Work& work, std::size_t ofEach) {
+        const std::size_t count = work.subject.materials.size();
+        return count > 1 ? count * ofEach : 0;
+    }
+    /// Of several materials chooses the one that errs most.
+    /// @param errorOf a material's, by what it uses; nothing: it is cancelled
+    template <class ErrorOf>
+    static void chooseWorst(Work& work, const ErrorOf& errorOf) {
+        const std::vector<Worn>& materials = work.subject.materials;
+        double most = -1.0;
+        for (std::size_t i = 0; i < materials.size() && materials.size() > 1; ++i) {
+            const std::optional<double> error =
+                errorOf(materials[i], work.view.selected[i].exponent);
+            if (!error) {
+                return;
+            }
+            const std::lock_guard lock(work.mutex);
+            work.view.selected[i].error = error;
+            if (*error > most) {
+                most = *error;
+                work.wear(materials[i]);
+            }
+        }
+    }
+
+    /// @return nothing: it is cancelled
+    std::optional<std::vector<glm::dvec3>> meansOf(Work& work, double exponent) {
+        std::vector<glm::dvec3> means;
+        for (const lighting::MeasuredDirection& measured : directions_) {
+            means.push_back((*means_)(measured.direction, exponent));
+            if (!step(work)) {
+                return std::nullopt;
+            }
+        }
+        return means;
+    }
+    /// What an estimator answers. @return nothing: it is cancelled
+    std::optional<lighting::Accuracy> accuracyOf(Work& work, const ReadyLookup& ready,
+                                                 double exponent,
+                                                 const std::vector<glm::dvec3>& truth,
+                                                 int& fetches) {
+        std::vector<glm::dvec3> answers;
+        for (const lighting::MeasuredDirection& measured : directions_) {
+            const CostAnswer answer = ready.answer(measured.direction, exponent);
+            answers.push_back(answer.radiance);
+            fetches = answer.fetches;
+            if (!step(work)) {
+                return std::nullopt;
+            }
+        }
+        return lighting::accuracyOf(directions_, truth, answers);
+    }
+
     void ofEnvironment(Work& work) {
         if (environment_ != work.subject.environment) {
             environment_ = work.subject.environment;
@@ -185,53 +160,58 @@ private:
             directions_ = lighting::measuredDirections(*environment_, kEnvironmentDirections);
             lighting::PreparedParts parts;
             parts.tentMips = true;
-            forecast_ = lighting::ErrorForecast(*environment_,
-                                                lighting::prepare(*environment_, parts).tentMips);
+            made_ = std::make_shared<lighting::PreparedEnvironment>(
+                lighting::prepare(*environment_, parts));
+            forecast_ = lighting::ErrorForecast(*environment_, made_->tentMips);
         }
-        const double exponent = work.view.exponent;
         {
             const std::lock_guard lock(work.mutex);
-            work.steps = directions_.size() * (1 + work.view.lines.size());
+            work.made = made_;
+            work.steps = directions_.size() * (1 + work.view.lines.size()) +
+                         stepsOfChoice(work, 2 * directions_.size());
         }
-        std::vector<glm::dvec3> truth;
-        for (const lighting::MeasuredDirection& measured : directions_) {
-            truth.push_back((*means_)(measured.direction, exponent));
-            if (!step(work)) {
+        int fetches = 0;
+        chooseWorst(work, [&](const Worn& worn, double exponent) -> std::optional<double> {
+            const auto truth = meansOf(work, exponent);
+            const auto accuracy = truth ? accuracyOf(work, readyFor(chosenBy(worn.used, exponent)),
+                                                     exponent, *truth, fetches)
+                                        : std::nullopt;
+            return accuracy ? std::optional(accuracy->rmse) : std::nullopt;
+        });
+        const double exponent = exponentOf(work);
+        const auto truth = work.cancelled ? std::nullopt : meansOf(work, exponent);
+        for (std::size_t line = 0; truth && line < work.view.lines.size(); ++line) {
+            const std::string& name = work.view.lines[line].name;
+            const std::string chosen = chosenBy(name, exponent);
+            if (chosen != name) {
+                const std::lock_guard lock(work.mutex);
+                work.view.lines[line].chosen = chosen;
+            }
+            const auto accuracy = accuracyOf(work, readyFor(chosen), exponent, *truth, fetches);
+            if (!accuracy) {
                 return;
             }
-        }
-        for (std::size_t line = 0; line < work.view.lines.size(); ++line) {
-            const ReadyLookup& ready = readyFor(work, line, exponent);
-            std::vector<glm::dvec3> answers;
-            int fetches = 0;
-            for (const lighting::MeasuredDirection& measured : directions_) {
-                const CostAnswer answer = ready.answer(measured.direction, exponent);
-                answers.push_back(answer.radiance);
-                fetches = answer.fetches;
-                if (!step(work)) {
-                    return;
-                }
-            }
-            setLine(work, line, lighting::accuracyOf(directions_, truth, answers), fetches);
+            setLine(work, line, *accuracy, fetches);
         }
     }
 
-    /// A line's lookup; what `auto` stands for at the exponent is said.
-    const ReadyLookup& readyFor(Work& work, std::size_t line, double exponent) {
-        std::string name = work.view.lines[line].name; // written by no one else
-        auto estimator = *lighting::parseEstimator(name, lighting::Term::Glossy);
-        if (estimator.kind == lighting::EstimatorKind::Auto) {
-            estimator =
-                forecast_.choose(static_cast<double>(estimator.tolerance), exponent, exponent)
-                    .estimator;
-            name = lighting::estimatorName(estimator);
-            const std::lock_guard lock(work.mutex);
-            work.view.lines[line].chosen = name;
-        }
+    /// An estimator's name, or that of what `auto` stands for at an exponent.
+    [[nodiscard]] std::string chosenBy(const std::string& name, double exponent) const {
+        const auto estimator = *lighting::parseEstimator(name, lighting::Term::Glossy);
+        return estimator.kind != lighting::EstimatorKind::Auto
+                   ? name
+                   : lighting::estimatorName(
+                         forecast_
+                             .choose(static_cast<double>(estimator.tolerance), exponent, exponent)
+                             .estimator);
+    }
+
+    const ReadyLookup& readyFor(const std::string& name) {
         const auto found = ready_.find(name);
         if (found != ready_.end()) {
             return found->second;
         }
+        const auto estimator = *lighting::parseEstimator(name, lighting::Term::Glossy);
         return ready_
             .emplace(name,
                      makeReady({name, lighting::Term::Glossy, estimator, nullptr}, *environment_))
@@ -247,11 +227,19 @@ private:
         {
             const std::lock_guard lock(work.mutex);
             const std::size_t places = std::max<std::size_t>(2 * work.view.rows.size(), 1) - 1;
-            work.steps = kEven + kAtLight * drawn.size() +
+            const std::size_t whole = kEven + kAtLight * drawn.size();
+            work.steps = whole + stepsOfChoice(work, whole) +
                          places * (kEvenOfRow + kAtLightOfRow * drawn.size());
         }
         const auto advance = [&work] { return step(work); };
-        const double exponent = work.view.exponent;
+        lighting::DayLookup fitted(subject.lights, lighting::kRsrm, kernels_);
+        chooseWorst(work, [&](const Worn&, double exponent) {
+            std::optional<double> error;
+            measureMaps(work, fitted, truthOf(reference, drawn, kEven, exponent, advance), exponent,
+                        [&](const lighting::Accuracy& accuracy, int) { error = accuracy.rmse; });
+            return error;
+        });
+        const double exponent = exponentOf(work);
         const Truth truth = truthOf(reference, drawn, kEven, exponent, advance);
         for (std::size_t line = 0; line < work.view.lines.size() && !work.cancelled; ++line) {
             const lighting::RsrmLayout& layout = *lighting::rsrmLayoutNamed(kLayouts[line]);
@@ -262,7 +250,6 @@ private:
                             setLine(work, line, accuracy, fetches);
                         });
         }
-        lighting::DayLookup fitted(subject.lights, lighting::kRsrm, kernels_);
         for (std::size_t row = 0; row < work.view.rows.size() && !work.cancelled; ++row) {
             for (const bool between : {false, true}) {
                 const ui::MapRow& shown = work.view.rows[row];
@@ -299,6 +286,7 @@ private:
 
     std::shared_ptr<lighting::RsrmKernels> kernels_;
     std::shared_ptr<const lighting::Cubemap> environment_;
+    std::shared_ptr<const lighting::PreparedEnvironment> made_; ///< of it: tent mips
     std::map<std::string, ReadyLookup> ready_;
     std::optional<lighting::LobeMeans> means_;
     std::vector<lighting::MeasuredDirection> directions_;
@@ -345,26 +333,27 @@ void AccuracyMeter::cancel() {
 
 void AccuracyMeter::measure(Subject subject) {
     if (work_) {
-        const Subject& now = work_->subject;
-        if (now.material == subject.material && now.exponent == subject.exponent &&
-            now.light == subject.light && now.hour == subject.hour && now.rows == subject.rows &&
-            now.environment == subject.environment) {
-            if (now.used != subject.used) {
-                const std::lock_guard lock(work_->mutex);
-                work_->subject.used = subject.used;
-                for (ui::EstimateLine& line : work_->view.lines) {
-                    line.used = line.name == subject.used;
-                }
-                work_->news = true;
-            }
+        const std::vector<Worn>& now = work_->asked;
+        const bool sameLight = work_->subject.light == subject.light &&
+                               work_->subject.hour == subject.hour &&
+                               work_->subject.rows == subject.rows &&
+                               work_->subject.environment == subject.environment;
+        const bool sameOne = now.size() == 1 && subject.materials.size() == 1 &&
+                             now.front().material == subject.materials.front().material &&
+                             now.front().exponent == subject.materials.front().exponent;
+        if (sameLight && now == subject.materials) {
+            return;
+        }
+        if (sameLight && sameOne) { // what it uses is measured already, whatever it is
+            const std::lock_guard lock(work_->mutex);
+            work_->asked = subject.materials;
+            work_->wear(subject.materials.front());
             return;
         }
     }
     cancel();
     auto work = std::make_shared<Work>();
     ui::AccuracyView& view = work->view;
-    view.material = subject.material;
-    view.exponent = lookupExponent(subject.exponent);
     view.selectable = subject.environment != nullptr;
     view.progress = 0.0;
     if (view.selectable) {
@@ -382,9 +371,13 @@ void AccuracyMeter::measure(Subject subject) {
                                                 : 0.0});
         }
     }
-    for (ui::EstimateLine& line : view.lines) {
-        line.used = line.name == subject.used;
+    for (const Worn& worn : subject.materials) {
+        if (subject.materials.size() > 1) {
+            view.selected.push_back({worn.material, lookupExponent(worn.exponent), worn.used});
+        }
     }
+    work->wear(subject.materials.front());
+    work->asked = subject.materials;
     work->subject = std::move(subject);
     {
         const std::lock_guard lock(mutex_);
@@ -450,7 +443,7 @@ core::Result<void> AccuracyMeter::prepareLine(gl::Device& device, std::size_t li
         prepared_ = work_->subject.environment;
     }
     const lighting::Cubemap none;
-    auto made = shading_->prepare(lookup, prepared_ ? *prepared_ : none);
+    auto made = shading_->prepare(lookup, prepared_ ? *prepared_ : none, work_->made.get());
     return made ? core::Result<void>() : core::Result<void>(made.error());
 }
 
@@ -475,7 +468,7 @@ core::Result<void> AccuracyMeter::slice(gl::Device& device) {
         least_ = std::numeric_limits<double>::infinity();
         return prepareLine(device, *timing_);
     }
-    const auto ms = shading_->slice(work_->subject.exponent, rows_);
+    const auto ms = shading_->slice(work_->worst.exponent, rows_);
     if (!ms) {
         return ms.error();
     }

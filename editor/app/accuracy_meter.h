@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Measures what `lodestar cost` tells, for one material under the light that shines now, beside the
-// editor's frames: errors on a thread of its own, times in slices of a few milliseconds.
+// Measures what `lodestar cost` tells, for the worst of the selected materials under the light that
+// shines now, beside the editor's frames: errors on a thread of its own, times in slices of a few
+// milliseconds.
 #pragma once
 
 #include <condition_variable>
@@ -20,12 +21,18 @@ namespace lodestar::app {
 
 class AccuracyMeter {
 public:
+    /// A material as it is worn.
+    struct Worn {
+        std::string material;
+        double exponent = 0.0; ///< Blinn-Phong
+        std::string used;      ///< its estimator or the lights' layout
+        bool operator==(const Worn&) const = default;
+    };
     /// What is measured.
     struct Subject {
-        std::string material;
-        double exponent = 0.0;               ///< Blinn-Phong
-        std::string used;                    ///< the material's estimator or the lights' layout
-        std::vector<std::string> estimators; ///< of environments
+        /// At least one. Of several the one whose own estimator errs most is measured by all.
+        std::vector<Worn> materials;
+        std::vector<std::string> estimators;                  ///< of environments
         std::shared_ptr<const lighting::Cubemap> environment; ///< null: skies and suns alone shine
         std::vector<lighting::DayLight> lights;
         double hour = 0.0;

@@ -105,7 +105,8 @@ core::Result<void> CostShading::prepareMap(const CostedLookup& lookup) {
 }
 
 core::Result<std::uint64_t> CostShading::prepare(const CostedLookup& lookup,
-                                                 const lighting::Cubemap& base) {
+                                                 const lighting::Cubemap& base,
+                                                 const lighting::PreparedEnvironment* made) {
     lookup_ = lookup;
     environment_ = {};
     lights_ = {};
@@ -116,8 +117,10 @@ core::Result<std::uint64_t> CostShading::prepare(const CostedLookup& lookup,
         }
     } else {
         environment_ = scene::GpuEnvironment("measured", base);
-        if (auto prepared = environment_.prepare(device_, lighting::partsFor(lookup.estimator));
-            !prepared) {
+        const lighting::PreparedParts parts = lighting::partsFor(lookup.estimator);
+        auto prepared = made != nullptr ? environment_.upload(device_, *made, parts)
+                                        : environment_.prepare(device_, parts);
+        if (!prepared) {
             return prepared.error();
         }
         scene::blocks::LodestarFrame block{};

@@ -31,9 +31,11 @@ public:
     make(gl::Device& device, std::shared_ptr<lighting::RsrmKernels> kernels = nullptr);
 
     /// Uploads what a lookup reads, in place of what was there. @return bytes of its textures
+    /// @param made its parts of `base`, where another thread has made them already; null: made here
     /// @errors NoOpenGl
-    [[nodiscard]] core::Result<std::uint64_t> prepare(const CostedLookup& lookup,
-                                                      const lighting::Cubemap& base);
+    [[nodiscard]] core::Result<std::uint64_t>
+    prepare(const CostedLookup& lookup, const lighting::Cubemap& base,
+            const lighting::PreparedEnvironment* made = nullptr);
     /// Shades by another lookup that reads what the last one prepared: an estimator over the same
     /// mips.
     void use(const CostedLookup& lookup) { lookup_ = lookup; }

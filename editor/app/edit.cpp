@@ -63,7 +63,9 @@ core::Result<void> show(const EditOptions& options) {
     }
     ui::Clipboard clipboard{[&] { return window->clipboard(); },
                             [&](const std::string& text) { window->setClipboard(text); }};
-    auto editor = Editor::make(**device, options.editor, std::move(clipboard));
+    EditorOptions opened = options.editor;
+    opened.beside = true;
+    auto editor = Editor::make(**device, opened, std::move(clipboard));
     if (!editor) {
         return editor.error();
     }

@@ -46,8 +46,14 @@ core::Result<std::unique_ptr<Editor>> Editor::make(gl::Device& device, const Edi
     if (auto opened = editor->openLightingFile(lighting); !opened) {
         return opened.error();
     }
-    if (auto opened = editor->openScene(options.scene, options.assetRoot); !opened) {
+    std::error_code ignored;
+    const bool beside = options.beside && std::filesystem::exists(options.scene, ignored);
+    if (auto opened = editor->openScene(beside ? std::string() : options.scene, options.assetRoot);
+        !opened) {
         return opened.error();
+    }
+    if (beside) {
+        editor->openSceneBeside(options.scene, options.assetRoot);
     }
     return editor;
 }
@@ -63,13 +69,13 @@ void Editor::stale() {
 }
 
 bool Editor::wantsFrame() const {
-    return session_.wantsFrame() || pictureStale_ || pendingScene_.has_value() || errorDue() ||
+    return session_.wantsFrame() || pictureStale_ || errorDue() ||
            (coarse_ &&
             std::chrono::duration<double>(Clock::now() - lastChange_).count() >= kStillSeconds);
 }
 
 double Editor::patience() const {
-    if (wantsFrame() || workspace_.view().playing || move_.fly != glm::vec3(0.0f)) {
+    if (wantsFrame() || workspace_.view().playing || move_.fly != glm::vec3(0.0f) || opening_) {
         return 0.0;
     }
     double seconds = std::numeric_limits<double>::infinity();
@@ -95,7 +101,6 @@ void Editor::advance(double seconds) {
     sinceFrame_ += seconds;
     watchFile(seconds);
     pollWork();
-    openPendingScene();
     if (!file_.path().empty()) {
         if (auto written = file_.autosave(model_, now()); !written) {
             workspace_.say(written.error().message(), true);
@@ -186,7 +191,7 @@ void Editor::answer(const ui::Wishes& wishes) {
     } else if (wishes.openLighting) {
         done = openLightingFile(*wishes.openLighting);
     } else if (wishes.openScene) {
-        openSceneSoon(*wishes.openScene);
+        openSceneBeside(*wishes.openScene, {});
     }
     if (!done) {
         workspace_.say(done.error().message(), true);

@@ -34,6 +34,7 @@ struct EditorOptions {
     std::string scene;    ///< empty: the built-in spheres
     std::string lighting; ///< empty: the document beside the scene, to be made where there is none
     std::string assetRoot;
+    bool beside = false; ///< a scene that is there is opened beside the frames of the spheres
 };
 
 class Editor {
@@ -63,7 +64,7 @@ public:
     [[nodiscard]] ui::Workspace& workspace() { return workspace_; }
     [[nodiscard]] const ui::Surroundings& surroundings() const { return around_; }
     /// Whether something goes on beside the frames.
-    [[nodiscard]] bool works() const { return work_.runs(); }
+    [[nodiscard]] bool works() const { return work_.runs() || opening_; }
     [[nodiscard]] int framesDrawn() const { return framesDrawn_; }
     [[nodiscard]] int picturesDrawn() const { return picturesDrawn_; }
     [[nodiscard]] int previewsDrawn() const { return previewsDrawn_; }
@@ -87,12 +88,18 @@ private:
         scene::Bounds bounds;
         DistantLight own; ///< where the document says nothing
     };
+    /// A scene that has been read and goes to the GPU, beside the one that is shown.
+    struct Opening {
+        Opening(gl::Device& device, std::string from, std::string within, Shown read)
+            : path(std::move(from)), root(std::move(within)), shown(std::move(read)),
+              upload(device, *shown.scene) {}
+        std::string path, root;
+        Shown shown;
+        scene::RendererUpload upload;
+    };
 
     Editor(gl::Device& device, ui::Clipboard clipboard);
     core::Result<void> openLightingFile(const std::filesystem::path& path);
-    core::Result<Shown> openShown(const std::string& path, const std::string& root) const;
-    core::Result<void> openScene(const std::string& path, const std::string& root);
-    void show(Shown shown);
     void describeScene();
     void describeMaterials();
 
@@ -133,13 +140,24 @@ private:
     void handleKey(const platform::KeyEvent& event);
     void drop(const std::string& path);
 
+    // editor_open.cpp
+    /// A file's scene with all but its renderer. @param path empty: the built-in spheres
+    /// @errors as `load`'s
+    static core::Result<Shown> readScene(const std::string& path, const std::string& root,
+                                         Background::Progress& progress);
+    /// Reads, uploads and shows a scene before it returns. @errors as readScene, NoOpenGl
+    core::Result<void> openScene(const std::string& path, const std::string& root);
+    /// The same beside the frames: until it is all there, what was shown is.
+    void openSceneBeside(const std::string& path, const std::string& root);
+    void uploadOpening();
+    void show(const std::string& path, const std::string& root, Shown shown);
+    void cancelWork();
+    void pollWork();
+    void describeWork();
     // editor_files.cpp
     /// Looks once a second at what others did to the document's file.
     void watchFile(double seconds);
     void reload();
-    /// Opens a scene once a frame has said so: the frames wait, as its textures go to the GPU.
-    void openSceneSoon(const std::string& path);
-    void openPendingScene();
     void listPresets();
     void answerFiles(const ui::Wishes& wishes);
     void paste(const std::string& text);
@@ -154,8 +172,6 @@ private:
     void useMean(const ui::MeanWish& wish);
     void setMean(const ui::MeanWish& wish, const document::Gradient& gradient);
     void answerPhotograph(const ui::Wishes& wishes);
-    void pollWork();
-    void describeWork();
     /// Another picture is due.
     void stale();
 
@@ -207,9 +223,8 @@ private:
     std::string status_;
     bool closing_ = false;
 
-    double sinceWatched_ = 0.0; ///< the document's file, seconds
-    std::optional<std::string> pendingScene_;
-    int pendingFrame_ = 0; ///< framesDrawn_ at which it is opened
+    double sinceWatched_ = 0.0;        ///< the document's file, seconds
+    std::unique_ptr<Opening> opening_; ///< null: none is on its way
     std::vector<std::string> presetWarnings_;
     std::shared_ptr<const core::Image> photographSmall_; ///< as wide as its texture
     std::vector<document::Light> photographLights_;      ///< of its fit

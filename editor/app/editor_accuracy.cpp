@@ -17,16 +17,18 @@ std::optional<std::size_t> Editor::materialIndex(const std::string& key) const {
 
 void Editor::syncAccuracy() {
     const std::vector<std::string>& selected = model_.selection().materials;
-    const std::optional<std::size_t> index =
-        selected.empty() || !everSynced_ ? std::nullopt : materialIndex(selected.front());
-    if (!index) {
+    AccuracyMeter::Subject subject;
+    const ui::ViewState& view = workspace_.view();
+    for (const std::string& key : selected) {
+        if (const auto index = everSynced_ ? materialIndex(key) : std::nullopt) {
+            const ui::MaterialLine& line = around_.materials[*index];
+            subject.materials.push_back(
+                {line.key, line.exponent, line.specular.empty() ? view.estimator : line.specular});
+        }
+    }
+    if (subject.materials.empty()) {
         meter_.cancel();
     } else if (!pictureStale_) { // a drag goes first
-        const ui::MaterialLine& line = around_.materials[*index];
-        const ui::ViewState& view = workspace_.view();
-        AccuracyMeter::Subject subject;
-        subject.material = line.key;
-        subject.exponent = line.exponent;
         subject.estimators = around_.estimators;
         const bool alone =
             around_.plan &&
@@ -36,9 +38,10 @@ void Editor::syncAccuracy() {
                          });
         if (!alone) {
             subject.environment = environment_;
-            subject.used = line.specular.empty() ? view.estimator : line.specular;
         } else {
-            subject.used = "rsrm";
+            for (AccuracyMeter::Worn& worn : subject.materials) {
+                worn.used = "rsrm";
+            }
             subject.hour = view.hour;
             subject.light = model_.revisions().lights;
             subject.rows = view.mapRows;

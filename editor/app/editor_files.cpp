@@ -9,6 +9,7 @@
 #include "app/editor.h"
 #include "io/file.h"
 #include "model/clipboard.h"
+#include "model/command_text.h"
 #include "model/presets.h"
 
 namespace lodestar::app {
@@ -73,25 +74,6 @@ void Editor::reload() {
     session_.wake();
 }
 
-void Editor::openSceneSoon(const std::string& path) {
-    pendingScene_ = path;
-    pendingFrame_ = framesDrawn_ + kWindowFrames;
-    describeWork();
-    session_.wake(kWindowFrames);
-}
-
-void Editor::openPendingScene() {
-    if (!pendingScene_ || framesDrawn_ < pendingFrame_) {
-        return;
-    }
-    const std::string path = *std::exchange(pendingScene_, std::nullopt);
-    if (auto opened = openScene(path, {}); !opened) {
-        workspace_.say(opened.error().message(), true);
-    }
-    describeWork();
-    session_.wake();
-}
-
 void Editor::listPresets() {
     core::Tally warnings;
     around_.presets = model::loadPresets(model::userPresetFolder(), warnings);
@@ -128,6 +110,14 @@ void Editor::answerFiles(const ui::Wishes& wishes) {
             workspace_.say("preset deleted: " + *wishes.removePreset);
         }
     }
+    if (wishes.saveCommands) {
+        const std::string text = model::writeHistory(model_);
+        done = io::writeFile(*wishes.saveCommands, text.data(), text.size());
+        if (done) {
+            workspace_.say(std::to_string(model_.undoCount()) +
+                           " steps saved as commands: " + *wishes.saveCommands);
+        }
+    }
     if (!done) {
         workspace_.say(done.error().message(), true);
     }
@@ -160,7 +150,7 @@ void Editor::drop(const std::string& path) {
     const std::string extension = extensionOf(path);
     core::Result<void> done;
     if (extension == ".gltf" || extension == ".glb") {
-        openSceneSoon(path);
+        openSceneBeside(path, {});
     } else if (isPicture(extension)) {
         openPhotograph(path);
     } else if (extension == ".json") {

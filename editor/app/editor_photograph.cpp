@@ -238,35 +238,9 @@ void Editor::setMean(const ui::MeanWish& wish, const document::Gradient& gradien
     session_.wake();
 }
 
-void Editor::pollWork() {
-    const bool ran = work_.runs();
-    auto polled = work_.poll();
-    if (!polled) {
-        workspace_.say(polled.error().message(), true);
-    }
-    if (!polled || *polled) {
-        session_.wake(kWindowFrames);
-    }
-    if (ran || work_.runs()) {
-        describeWork();
-    }
-}
-
-void Editor::describeWork() {
-    around_.work.reset();
-    if (pendingScene_) {
-        around_.work = ui::WorkLine{
-            "Opening " + std::filesystem::path(*pendingScene_).filename().string(), 0.0, false};
-    } else if (work_.runs()) {
-        around_.work = ui::WorkLine{work_.stage(), work_.share()};
-    }
-}
-
 void Editor::answerPhotograph(const ui::Wishes& wishes) {
-    if (wishes.cancelWork && work_.runs()) {
-        work_.cancel();
-        workspace_.say("cancelled; nothing was changed");
-        session_.wake();
+    if (wishes.cancelWork) {
+        cancelWork();
     }
     if (wishes.openPhotograph) {
         openPhotograph(*wishes.openPhotograph);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The editor's scene: how it is opened, and how it follows the document.
+// The editor's document, and how its scene follows it.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -10,7 +10,6 @@
 
 #include "app/command.h"
 #include "app/editor.h"
-#include "app/starter_scene.h"
 #include "lodestar/lobes.glsl"
 #include "model/presets.h"
 
@@ -127,64 +126,6 @@ core::Result<void> Editor::openLightingFile(const std::filesystem::path& path) {
     return {};
 }
 
-core::Result<Editor::Shown> Editor::openShown(const std::string& path,
-                                              const std::string& root) const {
-    SceneOptions options;
-    options.scene = path;
-    options.assetRoot = root;
-    OpenedFile opened;
-    if (path.empty()) {
-        opened = {starterScene(), 0};
-    } else {
-        auto file = openFile(options);
-        if (!file) {
-            return file.error();
-        }
-        opened = std::move(*file);
-    }
-    Shown shown;
-    auto own = distantLight(options, opened, std::nullopt);
-    if (!own) {
-        return own.error();
-    }
-    shown.own = std::move(*own);
-    const int index = opened.sceneIndex;
-    shown.scene = std::make_unique<scene::Scene>(scene::buildScene(std::move(opened.file), index));
-    warn(shown.scene->warnings, path);
-    shown.materials = shown.scene->materials;
-    auto renderer = scene::Renderer::make(*device_, *shown.scene);
-    if (!renderer) {
-        return core::inFile(renderer.error(), path);
-    }
-    shown.renderer = std::move(*renderer);
-    shown.scene->images.clear();
-    shown.bounds = shown.scene->worldBounds();
-    return shown;
-}
-
-core::Result<void> Editor::openScene(const std::string& path, const std::string& root) {
-    auto shown = openShown(path, root);
-    if (!shown) {
-        return shown.error();
-    }
-    if (path != scenePath_) {
-        pose_.reset();
-    }
-    scenePath_ = path;
-    assetRoot_ = root;
-    preview_.reset();
-    previewed_.reset();
-    shown_ = std::move(*shown);
-    hasEnvironment_ = false;
-    everSynced_ = false;
-    around_.low = shown_.bounds.empty() ? glm::vec3(-1.0f) : shown_.bounds.low;
-    around_.high = shown_.bounds.empty() ? glm::vec3(1.0f) : shown_.bounds.high;
-    describeScene();
-    stale();
-    session_.wake();
-    return {};
-}
-
 void Editor::describeScene() {
     around_.sceneName = scenePath_.empty() ? "built-in spheres"
                                            : std::filesystem::path(scenePath_).filename().string();
@@ -251,9 +192,11 @@ void Editor::syncEnvironment() {
         loaded = documentEnvironment(opened, io::kDefaultCubeWidth, read_);
         if (!loaded) {
             workspace_.say(loaded.error().message(), true);
-            return;
         }
-        light = &*loaded;
+        if (!loaded && (hasEnvironment_ || !opened.document.lights.empty())) {
+            return; // what shines goes on
+        }
+        light = loaded ? &*loaded : light;
     }
     shown_.renderer->setEnvironment(light->name, light->environment.base);
     environment_ = std::make_shared<lighting::Cubemap>(light->environment.base);

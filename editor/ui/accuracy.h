@@ -30,14 +30,23 @@ struct MapRow {
     std::optional<double> betweenError{};
 };
 
+/// One of several selected materials, with what it uses.
+struct WornLine {
+    std::string material;
+    double exponent = 0.0;         ///< Phong, of its lookups seen from above
+    std::string estimator;         ///< or layout of maps
+    std::optional<double> error{}; ///< relative RMSE
+};
+
 struct AccuracyView {
-    std::string material;  ///< empty: none is selected
+    std::string material;  ///< empty: none is selected; of several the one that errs most
     double exponent = 0.0; ///< Phong, of its lookups seen from above
     /// Whether a material's own estimator has an effect: an environment is read.
     bool selectable = false;
     std::vector<EstimateLine> lines;
     std::vector<MapRow> rows;
-    double progress = 1.0; ///< [0, 1]
+    std::vector<WornLine> selected; ///< where several are
+    double progress = 1.0;          ///< [0, 1]
 };
 
 } // namespace lodestar::ui

@@ -7,6 +7,7 @@
 
 #include "ui/fields.h"
 #include "ui/panels.h"
+#include "ui/plot_labels.h"
 #include "ui/theme.h"
 
 namespace lodestar::ui {
@@ -111,6 +112,45 @@ void drawFront(ImDrawList& list, const Frame& frame, std::vector<const EstimateL
     }
 }
 
+/// The names of the points, with lines to those that are not beside theirs: what is used and what
+/// nothing beats have theirs first.
+void drawNames(Studio& studio, const Frame& frame) {
+    const float em = ImGui::GetFontSize();
+    std::vector<const EstimateLine*> lines;
+    for (const EstimateLine& line : studio.around.accuracy.lines) {
+        if (measured(line)) {
+            lines.push_back(&line);
+        }
+    }
+    std::stable_sort(lines.begin(), lines.end(), [](const EstimateLine* a, const EstimateLine* b) {
+        return std::pair(a->used, a->front) > std::pair(b->used, b->front);
+    });
+    std::vector<PlotPoint> points;
+    for (const EstimateLine* line : lines) {
+        points.push_back(
+            {frame.at(*line->ms, *line->error), ImGui::CalcTextSize(line->name.c_str())});
+    }
+    const Box room{{frame.low.x, frame.low.y - 0.4f * em},
+                   {frame.high.x + 2.0f * em, frame.high.y}};
+    const std::vector<std::optional<Box>> places = placeLabels(points, 0.5f * em, room);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        if (!places[i]) {
+            continue; // the table has them all
+        }
+        const ImVec2& at = points[i].at;
+        const ImVec2 nearest{std::clamp(at.x, places[i]->low.x, places[i]->high.x),
+                             std::clamp(at.y, places[i]->low.y, places[i]->high.y)};
+        const float away = std::hypot(nearest.x - at.x, nearest.y - at.y);
+        if (away > 1.2f * em) {
+            list.AddLine(at, nearest, ImGui::GetColorU32(kDimText));
+        }
+        list.AddText(places[i]->low, ImGui::GetColorU32(lines[i]->used ? kAccent : kDimText),
+                     lines[i]->name.c_str());
+        studio.mark("plot name " + lines[i]->name, places[i]->low, places[i]->high);
+    }
+}
+
 void drawPlot(Studio& studio, float width) {
     const std::vector<EstimateLine>& lines = studio.around.accuracy.lines;
     const float em = ImGui::GetFontSize();
@@ -148,26 +188,47 @@ void drawPlot(Studio& studio, float width) {
         if (line.used) {
             list.AddCircle(at, 0.5f * em, ImGui::GetColorU32(kAccent), 0, 1.5f);
         }
-        if (!line.front && !line.used) {
-            continue; // names would hide each other; the table has them all
-        }
-        const float wide = ImGui::CalcTextSize(line.name.c_str()).x;
-        const bool left = at.x + 0.6f * em + wide > frame.high.x;
-        list.AddText({left ? at.x - 0.6f * em - wide : at.x + 0.6f * em, at.y - 1.05f * em},
-                     ImGui::GetColorU32(line.used ? kAccent : kDimText), line.name.c_str());
+    }
+    drawNames(studio, frame);
+}
+
+/// What is measured: of several selected materials which, and what each of them has.
+void drawSubject(Studio& studio) {
+    const AccuracyView& accuracy = studio.around.accuracy;
+    std::string of;
+    std::string each;
+    bool compared = true;
+    for (const WornLine& worn : accuracy.selected) {
+        of = ", the worst of " + std::to_string(accuracy.selected.size()) + " selected";
+        each += (each.empty() ? "" : "\n") + worn.material + ", exponent " +
+                formatted("%.4g", worn.exponent) + ", " + worn.estimator + ": " +
+                percentText(worn.error);
+        compared = compared && worn.error;
+    }
+    if (!compared) {
+        ImGui::TextColored(kDimText, "Comparing %zu selected materials", accuracy.selected.size());
+    } else {
+        ImGui::TextColored(kDimText, "%s%s, Phong exponent %.4g%s", accuracy.material.c_str(),
+                           of.c_str(), accuracy.exponent,
+                           accuracy.selectable ? "" : ", maps of skies and suns");
+    }
+    studio.mark("accuracy of");
+    if (!each.empty() && ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("%s", each.c_str());
     }
 }
 
-void drawNumbers(Studio& studio) {
-    constexpr ImGuiTableFlags kFlags =
-        ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
-    if (!ImGui::BeginTable("estimators", 5, kFlags)) {
+/// @param scrolls by itself: it stands beside the plot
+void drawNumbers(Studio& studio, bool scrolls) {
+    const ImGuiTableFlags flags = ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg |
+                                  (scrolls ? ImGuiTableFlags_ScrollY : ImGuiTableFlags_None);
+    if (!ImGui::BeginTable("estimators", 5, flags)) {
         return;
     }
     for (const char* column : {"estimator", "error", "worst", "ms/Mpx", "fetches"}) {
         ImGui::TableSetupColumn(column);
     }
-    ImGui::TableSetupScrollFreeze(0, 1);
+    ImGui::TableSetupScrollFreeze(0, scrolls ? 1 : 0);
     ImGui::TableHeadersRow();
     for (const EstimateLine& line : studio.around.accuracy.lines) {
         const ImVec4 color = line.used ? kAccent : kText;
@@ -177,7 +238,8 @@ void drawNumbers(Studio& studio) {
                            line.chosen.c_str());
         for (const std::string& text :
              {percentText(line.error), percentText(line.worst),
-              line.ms ? formatted("%.3g", *line.ms) : std::string("\xe2\x80\x93"),
+              line.ms ? formatted(*line.ms < 1000.0 ? "%.3g" : "%.0f", *line.ms)
+                      : std::string("\xe2\x80\x93"),
               line.fetches > 0 ? std::to_string(line.fetches) : std::string("\xe2\x80\x93")}) {
             ImGui::TableNextColumn();
             ImGui::TextColored(color, "%s", text.c_str());
@@ -203,16 +265,21 @@ void drawAccuracyPanel(Studio& studio) {
                            "Select a material: what each estimator errs and costs on it.");
         return;
     }
-    ImGui::TextColored(kDimText, "%s, Phong exponent %.4g%s", accuracy.material.c_str(),
-                       accuracy.exponent, accuracy.selectable ? "" : ", maps of skies and suns");
+    drawSubject(studio);
     if (accuracy.progress < 1.0) {
         ImGui::SameLine();
         ImGui::TextColored(kAccent, "measuring: %.0f %%", 100.0 * accuracy.progress);
     }
-    const float width = 0.42f * ImGui::GetContentRegionAvail().x;
-    drawPlot(studio, width);
-    ImGui::SameLine();
-    drawNumbers(studio);
+    // Where there is no room beside the plot the table stands below it, and the tab scrolls.
+    const float room = ImGui::GetContentRegionAvail().x;
+    const float em = ImGui::GetFontSize();
+    constexpr float kTable = 26.0f; // em, of its widest numbers
+    const bool beside = room >= (kTable + 12.0f) * em;
+    drawPlot(studio, beside ? std::min(0.42f * room, room - kTable * em) : room);
+    if (beside) {
+        ImGui::SameLine();
+    }
+    drawNumbers(studio, beside);
 }
 
 void drawMapRowsPanel(Studio& studio) {

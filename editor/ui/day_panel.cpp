@@ -125,16 +125,16 @@ void drawControls(Studio& studio, model::Id light, model::Id key, std::size_t ke
     studio.view.hoursASecond =
         numberField("##speed", studio.view.hoursASecond, 0.01f, 0.01, 24.0, "%.3g h a second")
             .value_or(studio.view.hoursASecond);
-    ImGui::SameLine();
+    continueRow(buttonWidth("Add key"));
     if (button(studio, "Add key", "at the hour; Ctrl + drag copies one")) {
         studio.runOnce(model::AddKey{light, studio.view.hour});
     }
-    ImGui::SameLine();
+    continueRow(buttonWidth("Copy here"));
     if (button(studio, "Copy here", "the chosen key to the hour")) {
         studio.runOnce(model::CopyKey{key, studio.view.hour});
     }
     if (keyCount > 1) {
-        ImGui::SameLine();
+        continueRow(buttonWidth("Delete key"));
         if (button(studio, "Delete key", "the key that is chosen")) {
             studio.runOnce(model::DeleteKey{key});
         }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -36,6 +37,43 @@ std::optional<double> numberField(const char* id, double value, float speed, dou
     // change in one alone.
     typed = std::clamp(std::isnormal(typed) ? typed : 0.0, least, most);
     return typed != value ? std::optional(typed) : std::nullopt;
+}
+
+namespace {
+
+/// The most digits with which each of three numbers has room in its third of the row.
+const char* formatWithin(const glm::dvec3& values, float width) {
+    constexpr const char* kFormats[] = {"%.4g", "%.3g", "%.2g", "%.1g"};
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float room =
+        (width - 2.0f * style.ItemInnerSpacing.x) / 3.0f - 2.0f * style.FramePadding.x;
+    for (const char* format : kFormats) {
+        bool fits = true;
+        for (int i = 0; i < 3; ++i) {
+            char text[32];
+            std::snprintf(text, sizeof text, format, values[i]);
+            fits = fits && ImGui::CalcTextSize(text).x <= room;
+        }
+        if (fits) {
+            return format;
+        }
+    }
+    return kFormats[3];
+}
+
+} // namespace
+
+bool numbersField(const char* id, glm::dvec3& values, float speed, double least, double most) {
+    glm::dvec3 typed = values;
+    const char* const format = formatWithin(values, ImGui::CalcItemWidth());
+    const bool changed =
+        ImGui::DragScalarN(id, ImGuiDataType_Double, &typed.x, 3, speed, &least, &most, format,
+                           ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat) &&
+        std::isfinite(typed.x) && std::isfinite(typed.y) && std::isfinite(typed.z);
+    if (changed) { // a typed number that is none stays out
+        values = glm::clamp(typed, least, most);
+    }
+    return changed;
 }
 
 namespace {
@@ -92,14 +130,8 @@ std::optional<glm::dvec3> colorField(const char* id, const glm::dvec3& value, do
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1.0f);
     glm::dvec3 typed = value;
-    constexpr double kLeast = 0.0;
-    if (ImGui::DragScalarN("##channels", ImGuiDataType_Double, &typed.x, 3, 0.005f, &kLeast, &most,
-                           "%.4g",
-                           ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat)) {
-        // A typed number that is none stays out.
-        const bool finite =
-            std::isfinite(typed.x) && std::isfinite(typed.y) && std::isfinite(typed.z);
-        changed = finite ? std::optional(glm::clamp(typed, 0.0, most)) : changed;
+    if (numbersField("##channels", typed, 0.005f, 0.0, most)) {
+        changed = typed;
     }
     ImGui::PopID();
     return changed;
@@ -120,6 +152,38 @@ std::optional<std::size_t> choiceField(Studio& studio, const char* id, std::size
         ImGui::EndCombo();
     }
     return changed == chosen ? std::nullopt : changed;
+}
+
+void continueRow(float width) {
+    const float end = ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width -
+                      ImGui::GetWindowPos().x;
+    if (end <= ImGui::GetContentRegionMax().x) {
+        ImGui::SameLine();
+    }
+}
+
+float buttonWidth(const char* text) {
+    return ImGui::CalcTextSize(text, nullptr, true).x + 2.0f * ImGui::GetStyle().FramePadding.x;
+}
+
+std::string elided(const std::string& text, float room) {
+    constexpr const char* kDots = "\xe2\x80\xa6";
+    if (ImGui::CalcTextSize(text.c_str()).x <= room) {
+        return text;
+    }
+    const float left = room - ImGui::CalcTextSize(kDots).x;
+    const char* end = nullptr;
+    ImGui::GetFont()->CalcTextSizeA(ImGui::GetFontSize(), std::max(left, 0.0f), 0.0f, text.data(),
+                                    text.data() + text.size(), &end);
+    return std::string(text.data(), end) + kDots;
+}
+
+void elidedText(const ImVec4& color, const std::string& text, float room) {
+    const std::string shown = elided(text, room);
+    ImGui::TextColored(color, "%s", shown.c_str());
+    if (shown.size() != text.size() && ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("%s", text.c_str());
+    }
 }
 
 bool beginQuestion(const char* title) {

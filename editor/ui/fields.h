@@ -20,6 +20,10 @@ void heading(const char* text);
 /// @param format printf's @return the new value, where it was changed
 [[nodiscard]] std::optional<double> numberField(const char* id, double value, float speed,
                                                 double least, double most, const char* format);
+/// Three numbers in a row, written with as many digits as there is room for.
+/// @return whether a finite number was typed or dragged
+[[nodiscard]] bool numbersField(const char* id, glm::dvec3& values, float speed, double least,
+                                double most);
 /// Linear colour in channels of [0, most], with a swatch that opens a picker.
 /// @param exposure factor by which the swatch is shown
 [[nodiscard]] std::optional<glm::dvec3> colorField(const char* id, const glm::dvec3& value,
@@ -28,6 +32,15 @@ void heading(const char* text);
 [[nodiscard]] std::optional<std::size_t> choiceField(Studio& studio, const char* id,
                                                      std::size_t chosen,
                                                      std::span<const char* const> choices);
+/// Goes on in the line where what comes next has room there, else in the next line.
+/// @param width of what comes next, pixels
+void continueRow(float width);
+/// The width of a button.
+[[nodiscard]] float buttonWidth(const char* text);
+/// A text that ends in dots where it is wider than its room, pixels.
+[[nodiscard]] std::string elided(const std::string& text, float room);
+/// The same as an item, whose tooltip then has it whole.
+void elidedText(const ImVec4& color, const std::string& text, float room);
 /// Begins a popup over all that waits for an answer, where it is open; ImGui::EndPopup ends it.
 [[nodiscard]] bool beginQuestion(const char* title);
 /// A button that says with a tooltip which key it has.

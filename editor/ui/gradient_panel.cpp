@@ -57,6 +57,10 @@ void drawStopFields(Studio& studio, lighting::LightKind kind) {
     label("radiance");
     ImGui::AlignTextToFramePadding();
     ImGui::Text("%.4g  %.4g  %.4g", radiance.r, radiance.g, radiance.b);
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - buttonWidth("Delete##stop"));
+    if (button(studio, "Delete##stop", "the selected stops, but for the last two of all (Del)")) {
+        studio.runOnce(model::DeleteStops{ids});
+    }
 }
 
 void drawBrushFields(Studio& studio) {
@@ -87,19 +91,19 @@ void drawShapeButtons(Studio& studio, model::Id key, lighting::LightKind kind) {
     if (button(studio, "Reverse", "R")) {
         studio.runOnce(model::ReverseStops{key});
     }
-    ImGui::SameLine();
+    continueRow(buttonWidth("Mirror"));
     if (button(studio, "Mirror", "M")) {
         studio.runOnce(model::MirrorStops{key});
     }
-    ImGui::SameLine();
+    continueRow(buttonWidth("Distribute"));
     if (button(studio, "Distribute", "D")) {
         studio.runOnce(model::DistributeStops{key});
     }
-    ImGui::SameLine();
+    continueRow(buttonWidth("Simplify"));
     if (button(studio, "Simplify", "to at most 8 stops")) {
         studio.runOnce(model::SimplifyStops{key});
     }
-    ImGui::SameLine();
+    continueRow(buttonWidth("Reset"));
     if (button(studio, "Reset", "to a new light's gradient")) {
         studio.runOnce(model::SetGradient{key, model::plainLight(kind, {}).keys.front().gradient});
     }

@@ -26,6 +26,12 @@ double exposureFactor(const ViewState& view) {
     return std::exp2(view.exposure);
 }
 
+/// What changes where a drag draws to, as bits.
+int heldKeys() {
+    const ImGuiIO& io = ImGui::GetIO();
+    return (io.KeyCtrl ? 1 : 0) | (io.KeyShift ? 2 : 0) | (io.KeyAlt ? 4 : 0);
+}
+
 } // namespace
 
 double placeOf(double at, LightKind kind) {
@@ -98,6 +104,7 @@ void GradientStrip::drawRamp(Studio& studio, const Frame& frame) const {
 void GradientStrip::drawTicks(const Frame& frame) {
     const float y = frame.bottom() + kHandleHeight * frame.scale;
     const ImU32 color = ImGui::GetColorU32(kDimText);
+    float end = frame.low.x; // of the text before
     for (const double at : ticksOf(frame.kind)) {
         const float x = frame.x(at);
         char text[16];
@@ -106,7 +113,10 @@ void GradientStrip::drawTicks(const Frame& frame) {
         frame.list->AddLine({x, frame.bottom()}, {x, frame.bottom() + 4.0f * frame.scale}, color);
         const float left =
             std::clamp(x - 0.5f * width, frame.low.x, frame.low.x + frame.width - width);
-        frame.list->AddText({left, y + 1.0f}, color, text);
+        if (left >= end) { // its line alone, where the one before takes its place
+            frame.list->AddText({left, y + 1.0f}, color, text);
+            end = left + width + 0.4f * ImGui::GetFontSize();
+        }
     }
 }
 
@@ -140,7 +150,9 @@ void GradientStrip::drawStops(Studio& studio, const Frame& frame) const {
 void GradientStrip::press(Studio& studio, const Frame& frame, double at) {
     moved_ = away_ = false;
     grabbed_.clear();
+    clicked_.reset();
     path_.clear();
+    keys_ = heldKeys();
     if (studio.view.brush) {
         stroke(studio, frame, at);
         return;
@@ -152,12 +164,13 @@ void GradientStrip::press(Studio& studio, const Frame& frame, double at) {
         grabbed = frame.stops[*handle];
         const auto place = std::find(selection.stops.begin(), selection.stops.end(), grabbed);
         const bool adds = ImGui::GetIO().KeyCtrl || ImGui::GetIO().KeyShift;
-        if (place != selection.stops.end() && adds) {
-            selection.stops.erase(place);
-            studio.model.select(selection);
-            return;
-        }
-        if (place == selection.stops.end()) {
+        if (place != selection.stops.end()) { // all of them are dragged, or it is clicked
+            clicked_ = std::vector{grabbed};
+            if (adds) {
+                clicked_ = selection.stops;
+                std::erase(*clicked_, grabbed);
+            }
+        } else {
             if (!adds) {
                 selection.stops.clear();
             }
@@ -215,7 +228,9 @@ void GradientStrip::drag(Studio& studio, const Frame& frame, double at) {
                                 io.MousePos.y - frame.bottom() - kHandleHeight * frame.scale);
     moved_ = moved_ || ImGui::IsMouseDragging(ImGuiMouseButton_Left, 2.0f);
     away_ = moved_ && away > kAwayPixels * frame.scale && frame.stops.size() >= grabbed_.size() + 2;
-    if (!moved_ || grabbed_.empty() || (io.MouseDelta.x == 0.0f && io.MouseDelta.y == 0.0f)) {
+    const bool rests = io.MouseDelta.x == 0.0f && io.MouseDelta.y == 0.0f && keys_ == heldKeys();
+    keys_ = heldKeys();
+    if (!moved_ || grabbed_.empty() || rests) {
         return; // a pointer at rest changes nothing
     }
     at = drawnTo(studio, frame, at);
@@ -235,9 +250,14 @@ void GradientStrip::release(Studio& studio, const Frame&) {
             gone.stops.push_back(from.stop);
         }
         studio.runOnce(gone);
+    } else if (!moved_ && clicked_) {
+        model::Selection selection = studio.model.selection();
+        selection.stops = *clicked_;
+        studio.model.select(selection);
     }
     away_ = moved_ = false;
     grabbed_.clear();
+    clicked_.reset();
     path_.clear();
 }
 

@@ -47,6 +47,9 @@ private:
     std::vector<model::StopMove> grabbed_; ///< where the dragged stops were
     double grabbedAt_ = 0.0;               ///< degrees of the pointer then, or of the stop under it
     std::vector<double> path_;             ///< of the stroke so far
+    /// What a click without motion leaves selected, where it is another selection.
+    std::optional<std::vector<model::Id>> clicked_;
+    int keys_ = 0; ///< held in the last frame of the drag
     bool moved_ = false;
     bool away_ = false;
 };

@@ -152,9 +152,12 @@ void drawEstimator(Studio& studio, const MaterialLine& material,
         ImGui::EndCombo();
     }
     label("");
-    const EstimateLine* used =
-        lineOf(studio, material.specular.empty() ? studio.view.estimator : material.specular);
-    ImGui::TextColored(kDimText, "%s", measuredText(used).c_str());
+    const auto used = std::find_if(accuracy.lines.begin(), accuracy.lines.end(),
+                                   [](const EstimateLine& line) { return line.used; });
+    const std::string worst = names.size() > 1 ? accuracy.material + ": " : "";
+    if (used != accuracy.lines.end()) {
+        ImGui::TextColored(kDimText, "%s%s", worst.c_str(), measuredText(&*used).c_str());
+    }
 }
 
 } // namespace

@@ -41,10 +41,6 @@ void drawWork(Studio& studio) {
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
     ImGui::TextUnformatted(studio.around.work->text.c_str());
-    if (!studio.around.work->stops) {
-        ImGui::End();
-        return;
-    }
     ImGui::ProgressBar(static_cast<float>(studio.around.work->share), {-5.0f * em, 0.0f}, "");
     ImGui::SameLine();
     studio.wishes.cancelWork =

@@ -55,8 +55,20 @@ void drawEnvironmentPanel(Studio& studio);
 /// The light probe that is selected: where it is, what it captures and when, where it holds.
 void drawProbePanel(Studio& studio);
 /// The selected light probes' volumes over the picture, and handles that move the first of them.
-/// @param low, size of the picture, framebuffer pixels
-void drawProbeGizmo(Studio& studio, const ImVec2& low, const ImVec2& size);
+class ProbeGizmo {
+public:
+    /// @param low, size of the picture, framebuffer pixels
+    void draw(Studio& studio, const ImVec2& low, const ImVec2& size);
+
+private:
+    void drawHandles(Studio& studio, const ImVec2& low, const ImVec2& size, model::Id id,
+                     std::size_t index);
+    /// Where the pointer and the keys that are held draw a coordinate to, metres; nothing where the
+    /// pointer has not moved yet.
+    std::optional<double> drag(const Studio& studio, double coordinate, float along);
+    double from_ = 0.0;  ///< the coordinate where the drag began
+    double moved_ = 0.0; ///< metres by which it was dragged since
+};
 /// A light probe that holds the whole scene, to begin with.
 [[nodiscard]] lighting::Probe firstProbe(const Studio& studio);
 /// The selected material's estimators: error against time, and in numbers.
@@ -72,7 +84,7 @@ void drawScenePanel(Studio& studio);
 /// The plan in words, the times of the last frame, the log.
 void drawReportPanel(Studio& studio);
 /// The picture, and what the pointer does on it.
-void drawViewport(Studio& studio);
+void drawViewport(Studio& studio, ProbeGizmo& gizmo);
 
 /// Stops of the chosen key, from the axis outwards, and the selection moved along them.
 void selectNeighbourStop(Studio& studio, int step);

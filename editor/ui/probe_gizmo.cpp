@@ -15,7 +15,8 @@ namespace {
 
 /// Points nearer to the eye than this share of a clip-space unit are not drawn.
 constexpr float kNearest = 1e-3f;
-constexpr int kArcs = 48; ///< chords of a circle
+constexpr int kArcs = 48;           ///< chords of a circle
+constexpr float kDragPixels = 2.0f; ///< until a press is a drag
 
 /// The picture as points are drawn over it.
 struct Picture {
@@ -83,21 +84,27 @@ void drawVolume(const Picture& picture, const glm::mat4& worldFromProbe,
     }
 }
 
-/// The handle of an axis. @return metres along it by which it is dragged now
-float drawHandle(Studio& studio, const Picture& picture, const glm::vec3& origin,
-                 const glm::vec3& axis, const char* name, ImU32 color) {
+/// What the pointer does at a handle.
+struct Handle {
+    float along = 0.0f; ///< metres along its axis by which it is dragged in this frame
+    bool begins = false, held = false;
+};
+
+/// The handle of an axis.
+Handle drawHandle(Studio& studio, const Picture& picture, const glm::vec3& origin,
+                  const glm::vec3& axis, const char* name, ImU32 color) {
     const float em = ImGui::GetFontSize();
     const glm::vec4 from = picture.clipFromWorld * glm::vec4(origin, 1.0f);
     const glm::vec4 ahead = picture.clipFromWorld * glm::vec4(axis, 0.0f);
     if (from.w < kNearest) {
-        return 0.0f;
+        return {};
     }
     // How far a metre along the axis goes in the picture, there.
     const glm::vec2 ndc = (glm::vec2(ahead) - glm::vec2(from) / from.w * ahead.w) / from.w;
     const glm::vec2 pixels = 0.5f * ndc * glm::vec2(picture.size.x, -picture.size.y);
     const float length = glm::length(pixels);
     if (!(length > 1e-6f)) {
-        return 0.0f; // it points at the eye
+        return {}; // it points at the eye
     }
     const ImVec2 start = picture.place(from);
     const glm::vec2 reach = pixels / length * std::min(5.0f * em, 1e3f * length);
@@ -105,7 +112,7 @@ float drawHandle(Studio& studio, const Picture& picture, const glm::vec3& origin
     const float side = 1.2f * em;
     if (tip.x < picture.low.x + side || tip.x > picture.low.x + picture.size.x - side ||
         tip.y < picture.low.y + side || tip.y > picture.low.y + picture.size.y - side) {
-        return 0.0f;
+        return {};
     }
     ImGui::SetCursorScreenPos({tip.x - 0.5f * side, tip.y - 0.5f * side});
     ImGui::InvisibleButton(name, {side, side});
@@ -114,15 +121,45 @@ float drawHandle(Studio& studio, const Picture& picture, const glm::vec3& origin
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddLine(start, tip, color, lit ? 4.0f : 2.5f);
     list.AddCircleFilled(tip, lit ? 0.45f * em : 0.35f * em, color);
-    if (!ImGui::IsItemActive()) {
-        return 0.0f;
-    }
     const glm::vec2 moved(ImGui::GetIO().MouseDelta.x, ImGui::GetIO().MouseDelta.y);
-    return glm::dot(moved, pixels) / (length * length);
+    return {glm::dot(moved, pixels) / (length * length), ImGui::IsItemActivated(),
+            ImGui::IsItemActive()};
+}
+
+/// Rounds to steps of a power of ten: numbers that are read as they are written.
+double rounded(double value, int power) {
+    const double size = std::pow(10.0, std::abs(power));
+    return power < 0 ? std::round(value * size) / size : std::round(value / size) * size;
+}
+
+/// The power of ten of a step in a scene: up to a twentieth of its diagonal.
+int stepPower(const Studio& studio) {
+    const double diagonal = glm::distance(studio.around.low, studio.around.high);
+    return diagonal > 1e-6 ? static_cast<int>(std::floor(std::log10(diagonal / 20.0))) : -6;
+}
+
+} // namespace
+
+std::optional<double> ProbeGizmo::drag(const Studio& studio, double coordinate, float along) {
+    constexpr double kFine = 0.1;
+    const ImGuiIO& io = ImGui::GetIO();
+    if (std::isfinite(along)) {
+        moved_ += (io.KeyShift ? kFine : 1.0) * static_cast<double>(along);
+    }
+    if (io.MouseDragMaxDistanceSqr[0] < kDragPixels * kDragPixels) {
+        return std::nullopt;
+    }
+    double to = from_ + moved_;
+    if (io.KeyCtrl) {
+        to = rounded(to, stepPower(studio) - (io.KeyShift ? 1 : 0));
+    }
+    return to != coordinate ? std::optional(to) : std::nullopt;
 }
 
 /// Handles along the axes of the frame that the probe's position is given in.
-void drawHandles(Studio& studio, const Picture& picture, model::Id id, std::size_t index) {
+void ProbeGizmo::drawHandles(Studio& studio, const ImVec2& low, const ImVec2& size, model::Id id,
+                             std::size_t index) {
+    const Picture picture{studio.around.clipFromWorld, low, size};
     constexpr std::array<const char*, 3> kNames = {"x", "y", "z"};
     constexpr std::array<ImU32, 3> kColors = {
         IM_COL32(226, 94, 84, 255), IM_COL32(132, 196, 88, 255), IM_COL32(92, 148, 232, 255)};
@@ -130,22 +167,30 @@ void drawHandles(Studio& studio, const Picture& picture, model::Id id, std::size
     lighting::Probe probe = studio.model.document().probes[index].probe;
     bool moved = false;
     for (int axis = 0; axis < 3; ++axis) {
-        const float along = drawHandle(studio, picture, glm::vec3(frame[3]), glm::vec3(frame[axis]),
-                                       kNames[static_cast<std::size_t>(axis)],
-                                       kColors[static_cast<std::size_t>(axis)]);
-        if (along != 0.0f && std::isfinite(along)) {
-            probe.position[axis] += static_cast<double>(along);
+        const char* const name = kNames[static_cast<std::size_t>(axis)];
+        const Handle handle =
+            drawHandle(studio, picture, glm::vec3(frame[3]), glm::vec3(frame[axis]), name,
+                       kColors[static_cast<std::size_t>(axis)]);
+        if (handle.begins) {
+            from_ = probe.position[axis];
+            moved_ = 0.0;
+        }
+        if (!handle.held) {
+            continue;
+        }
+        if (const auto to = drag(studio, probe.position[axis], handle.along)) {
+            probe.position[axis] = *to;
             moved = true;
         }
+        ImGui::SetTooltip("%s %.4g m\nCtrl: steps of %g m, Shift: a tenth of the way", name,
+                          probe.position[axis], std::pow(10.0, stepPower(studio)));
     }
     if (moved) {
         studio.run(model::SetProbe{id, probe});
     }
 }
 
-} // namespace
-
-void drawProbeGizmo(Studio& studio, const ImVec2& low, const ImVec2& size) {
+void ProbeGizmo::draw(Studio& studio, const ImVec2& low, const ImVec2& size) {
     const std::vector<model::Id> chosen = studio.model.selection().probes;
     if (chosen.empty()) {
         return;
@@ -168,7 +213,7 @@ void drawProbeGizmo(Studio& studio, const ImVec2& low, const ImVec2& size) {
         }
         drawVolume(picture, frame, probe.influence, influence);
         if (id == chosen.front()) {
-            drawHandles(studio, picture, id, *index);
+            drawHandles(studio, low, size, id, *index);
         }
     }
     ImGui::PopClipRect();

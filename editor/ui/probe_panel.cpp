@@ -21,15 +21,11 @@ constexpr int kWidestCapture = 16384;
 /// Three numbers in a row. @return whether one was changed
 bool vectorField(Studio& studio, const char* name, glm::dvec3& value, double least, double most) {
     label(name);
-    glm::dvec3 typed = value;
     const bool changed =
-        ImGui::DragScalarN((std::string("##") + name).c_str(), ImGuiDataType_Double, &typed.x, 3,
-                           0.02f, &least, &most, "%.4g",
-                           ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat) &&
-        std::isfinite(typed.x) && std::isfinite(typed.y) && std::isfinite(typed.z);
+        numbersField((std::string("##") + name).c_str(), value, 0.02f, least, most);
     studio.mark(std::string("probe ") + name);
-    if (changed) {
-        value = glm::clamp(typed, least, most);
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("x, y, z in metres");
     }
     return changed;
 }

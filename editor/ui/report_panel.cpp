@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "ui/fields.h"
 #include "ui/panels.h"
 #include "ui/theme.h"
@@ -17,8 +19,10 @@ void drawPlan(Studio& studio) {
     }
     const float em = ImGui::GetFontSize();
     ImGui::TableSetupColumn("decision", ImGuiTableColumnFlags_WidthFixed, 2.2f * em);
-    ImGui::TableSetupColumn("effect", ImGuiTableColumnFlags_WidthFixed, 7.5f * em);
-    ImGui::TableSetupColumn("subject", ImGuiTableColumnFlags_WidthFixed, 8.0f * em);
+    ImGui::TableSetupColumn("effect", ImGuiTableColumnFlags_WidthFixed,
+                            std::min(7.5f * em, 0.24f * ImGui::GetContentRegionAvail().x));
+    const float subject = std::min(8.0f * em, 0.22f * ImGui::GetContentRegionAvail().x);
+    ImGui::TableSetupColumn("subject", ImGuiTableColumnFlags_WidthFixed, subject);
     ImGui::TableSetupColumn("reason", ImGuiTableColumnFlags_WidthStretch);
     const std::vector<plan::Effect>& effects = studio.around.plan->effects;
     ImGuiListClipper clipper;
@@ -32,14 +36,11 @@ void drawPlan(Studio& studio) {
             ImGui::TableNextColumn();
             ImGui::TextColored(runs ? kAccent : kDimText, "%s", runs ? "run" : "skip");
             ImGui::TableNextColumn();
-            ImGui::TextColored(color, "%s", effect.effect.c_str());
+            elidedText(color, effect.effect, ImGui::GetContentRegionAvail().x);
             ImGui::TableNextColumn();
-            ImGui::TextColored(color, "%s", effect.subject.c_str());
+            elidedText(color, effect.subject, ImGui::GetContentRegionAvail().x);
             ImGui::TableNextColumn();
-            ImGui::TextColored(color, "%s", effect.reason.c_str());
-            if (ImGui::IsItemHovered()) {
-                ImGui::SetTooltip("%s: %s", effect.subject.c_str(), effect.reason.c_str());
-            }
+            elidedText(color, effect.reason, ImGui::GetContentRegionAvail().x);
         }
     }
     ImGui::EndTable();
@@ -68,9 +69,11 @@ void drawTimes(Studio& studio) {
 }
 
 void drawLog(Studio& studio) {
+    ImGui::PushTextWrapPos();
     for (const LogLine& line : studio.log) {
         ImGui::TextColored(line.isError ? kWarning : kText, "%s", line.text.c_str());
     }
+    ImGui::PopTextWrapPos();
     if (ImGui::GetScrollY() >= ImGui::GetScrollMaxY()) {
         ImGui::SetScrollHereY(1.0f);
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cstdio>
 
 #include "model/presets.h"
 #include "ui/fields.h"
@@ -8,6 +9,27 @@
 
 namespace lodestar::ui {
 namespace {
+
+/// A name at the left of a line, cut where what stands at its right begins: a tooltip has it whole.
+/// @param list that the name stands in, by number  @param wide whether the whole line is clicked,
+/// and not the name alone  @return whether it was
+bool nameBefore(const char* list, const std::string& name, float right, bool selected,
+                bool wide = true) {
+    const std::string shown =
+        elided(name, ImGui::GetContentRegionAvail().x - right - 0.5f * ImGui::GetFontSize());
+    const ImVec2 room(wide ? 0.0f : ImGui::CalcTextSize(shown.c_str()).x, 0.0f);
+    const bool clicked = ImGui::Selectable((shown + "###" + list).c_str(), selected, 0, room);
+    if (shown.size() != name.size() && ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("%s", name.c_str());
+    }
+    return clicked;
+}
+
+/// What stands at the right of a line, as wide as it is.
+void textAtRight(float width, const char* text) {
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
+    ImGui::TextColored(kDimText, "%s", text);
+}
 
 /// A new light looks like the first preset's of its kind.
 void addLight(Studio& studio, lighting::LightKind kind) {
@@ -28,26 +50,27 @@ void drawLights(Studio& studio) {
         const model::Id id = studio.model.ids().lights[i].id;
         const std::string name = light.name.empty() ? "light " + std::to_string(i) : light.name;
         ImGui::PushID(static_cast<int>(i));
-        if (ImGui::Selectable(name.c_str(), id == chosen)) {
+        const char* const kind = light.kind == lighting::LightKind::Sky ? "sky" : "sun";
+        const float right = ImGui::CalcTextSize("sun").x;
+        if (nameBefore("light", name, right, id == chosen)) {
             model::Selection selection;
             selection.light = id;
             selection.materials = studio.model.selection().materials;
             studio.model.select(selection);
         }
         studio.mark("light " + std::to_string(i));
-        ImGui::SameLine(ImGui::GetContentRegionMax().x - 2.2f * ImGui::GetFontSize());
-        ImGui::TextColored(kDimText, "%s", light.kind == lighting::LightKind::Sky ? "sky" : "sun");
+        textAtRight(right, kind);
         ImGui::PopID();
     }
     if (button(studio, "Add sky", "")) {
         addLight(studio, lighting::LightKind::Sky);
     }
-    ImGui::SameLine();
+    continueRow(buttonWidth("Add sun"));
     if (button(studio, "Add sun", "")) {
         addLight(studio, lighting::LightKind::Sun);
     }
     if (chosen != model::Id::None) {
-        ImGui::SameLine();
+        continueRow(buttonWidth("Remove"));
         if (button(studio, "Remove", "the light that is chosen")) {
             studio.runOnce(model::RemoveLight{chosen});
         }
@@ -62,7 +85,10 @@ void drawMaterials(Studio& studio) {
             std::find(selection.materials.begin(), selection.materials.end(), material.key);
         const bool selected = place != selection.materials.end();
         ImGui::PushID(static_cast<int>(i));
-        if (ImGui::Selectable(material.key.c_str(), selected)) {
+        char exponent[24];
+        std::snprintf(exponent, sizeof exponent, "%.5g", material.exponent);
+        const float right = ImGui::CalcTextSize(exponent).x;
+        if (nameBefore("material", material.key, right, selected)) {
             if (!ImGui::GetIO().KeyCtrl) {
                 selection.materials = {material.key};
             } else if (selected) {
@@ -73,8 +99,7 @@ void drawMaterials(Studio& studio) {
             studio.model.select(selection);
         }
         studio.mark("material " + std::to_string(i));
-        ImGui::SameLine(ImGui::GetContentRegionMax().x - 4.0f * ImGui::GetFontSize());
-        ImGui::TextColored(kDimText, "%.5g", material.exponent);
+        textAtRight(right, exponent);
         ImGui::PopID();
     }
 }
@@ -89,8 +114,8 @@ void drawNodes(Studio& studio) {
             ImGui::SetCursorPosX(ImGui::GetCursorPosX() +
                                  step * static_cast<float>(std::min(node.depth, 12)));
             ImGui::PushID(i);
-            const ImVec2 room(ImGui::CalcTextSize(node.name.c_str()).x, 0.0f);
-            if (ImGui::Selectable(node.name.c_str(), studio.view.node == i, 0, room)) {
+            const float holds = ImGui::CalcTextSize(node.holds.c_str()).x;
+            if (nameBefore("node", node.name, holds, studio.view.node == i, false)) {
                 studio.view.node = studio.view.node == i ? -1 : i;
             }
             ImGui::PopID();
@@ -112,7 +137,9 @@ void drawProbes(Studio& studio) {
         const bool selected = place != selection.probes.end();
         ImGui::PushID(static_cast<int>(i));
         const std::string name = probe.name.empty() ? "probe " + std::to_string(i) : probe.name;
-        if (ImGui::Selectable((name + "##probe").c_str(), selected)) {
+        const char* const where = probe.exterior ? "exterior" : "interior";
+        const float right = ImGui::CalcTextSize(where).x;
+        if (nameBefore("probe", name, right, selected)) {
             if (!ImGui::GetIO().KeyCtrl) {
                 selection.probes = selected && selection.probes.size() == 1
                                        ? std::vector<model::Id>()
@@ -125,8 +152,7 @@ void drawProbes(Studio& studio) {
             studio.model.select(selection);
         }
         studio.mark("probe " + std::to_string(i));
-        ImGui::SameLine(ImGui::GetContentRegionMax().x - 4.0f * ImGui::GetFontSize());
-        ImGui::TextColored(kDimText, "%s", probe.exterior ? "exterior" : "interior");
+        textAtRight(right, where);
         ImGui::PopID();
     }
     if (button(studio, "Add probe", "")) {
@@ -134,7 +160,7 @@ void drawProbes(Studio& studio) {
     }
     const std::vector<model::Id> chosen = studio.model.selection().probes;
     if (!chosen.empty()) {
-        ImGui::SameLine();
+        continueRow(buttonWidth("Remove##probes"));
         if (button(studio, "Remove##probes", "the light probes that are selected")) {
             studio.runOnce(model::RemoveProbes{chosen});
         }
@@ -144,7 +170,7 @@ void drawProbes(Studio& studio) {
 } // namespace
 
 void drawScenePanel(Studio& studio) {
-    ImGui::TextColored(kDimText, "%s", studio.around.sceneName.c_str());
+    elidedText(kDimText, studio.around.sceneName, ImGui::GetContentRegionAvail().x);
     heading("Lights");
     drawLights(studio);
     if (studio.around.drawsProbes || !studio.model.document().probes.empty()) {

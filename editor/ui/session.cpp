@@ -84,11 +84,14 @@ void Session::useScale(float scale) {
     if (wanted == scale_) {
         return;
     }
+    const bool first = scale_ == 0.0f;
     scale_ = wanted;
     applyTheme(scale_);
-    if (drawing_ == Drawing::OpenGl) {
-        ImGui_ImplOpenGL3_DestroyDeviceObjects(); // made anew with the next frame
-    } else {
+    if (drawing_ == Drawing::OpenGl && !first) {
+        // Its other objects stay: Dear ImGui 1.86 would take new buffers to be as large as the old.
+        ImGui_ImplOpenGL3_DestroyFontsTexture();
+        ImGui_ImplOpenGL3_CreateFontsTexture();
+    } else if (drawing_ != Drawing::OpenGl) {
         unsigned char* pixels = nullptr;
         int width = 0;
         int height = 0;

@@ -70,7 +70,8 @@ void Studio::mark(const std::string& name) {
 }
 
 void Studio::mark(const std::string& name, const ImVec2& low, const ImVec2& high) {
-    marks[name] = {low, high};
+    const ImGuiWindow& window = *ImGui::GetCurrentWindowRead();
+    marks[name] = {low, high, window.ClipRect.Min, window.ClipRect.Max, window.ScrollMax.y > 0.0f};
 }
 
 model::Id Studio::chosenLight() const {

@@ -72,11 +72,10 @@ struct Photograph {
     std::optional<PhotographFit> fit; ///< of a panorama
 };
 
-/// Work that goes on beside the frames, or that the next one waits for.
+/// Work that goes on beside the frames.
 struct WorkLine {
     std::string text;
     double share = 0.0; ///< of its stages that are done, [0, 1]
-    bool stops = true;  ///< whether it can be cancelled
 };
 
 /// What the panels are shown besides the document.
@@ -150,7 +149,7 @@ struct LightsWish {
 /// What a frame of the panels asks for.
 struct Wishes {
     bool save = false, quit = false;
-    std::optional<std::string> saveAs, openScene, openLighting;
+    std::optional<std::string> saveAs, saveCommands, openScene, openLighting;
     CameraMove camera;
     /// A click on the picture: its pixel, from its top left, selects the material there, or with
     /// Ctrl adds it to the selection.
@@ -172,6 +171,8 @@ struct Wishes {
 /// A rectangle of the framebuffer, for whoever drives the panels by synthetic input.
 struct Mark {
     ImVec2 low, high;
+    ImVec2 clipLow, clipHigh; ///< what its window shows
+    bool scrolls = false;     ///< the window has more below or above
     [[nodiscard]] ImVec2 center() const {
         return {0.5f * (low.x + high.x), 0.5f * (low.y + high.y)};
     }

@@ -48,7 +48,7 @@ void answerClick(Studio& studio, const ImVec2& low) {
 
 } // namespace
 
-void drawViewport(Studio& studio) {
+void drawViewport(Studio& studio, ProbeGizmo& gizmo) {
     const ImVec2 low = ImGui::GetCursorScreenPos();
     const ImVec2 room = ImGui::GetContentRegionAvail();
     const ImVec2 size(std::floor(std::max(room.x, 1.0f)), std::floor(std::max(room.y, 1.0f)));
@@ -81,7 +81,7 @@ void drawViewport(Studio& studio) {
             reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(studio.around.picture)), low,
             {low.x + size.x, low.y + size.y}, {0.0f, 1.0f}, {1.0f, 0.0f});
     }
-    drawProbeGizmo(studio, low, size);
+    gizmo.draw(studio, low, size);
     if (studio.view.errorView && !studio.around.errorText.empty()) {
         const char* text = studio.around.errorText.c_str();
         const ImVec2 at(low.x + ImGui::GetFontSize(), low.y + ImGui::GetFontSize());

@@ -7,6 +7,7 @@
 #include <imgui_stdlib.h>
 
 #include "lighting/day.h"
+#include "model/command_text.h"
 #include "model/ramp.h"
 #include "ui/actions.h"
 #include "ui/fields.h"
@@ -60,7 +61,7 @@ void Panels::report() const {
 }
 
 void Panels::viewport() const {
-    drawViewport(studio_);
+    drawViewport(studio_, workspace_.gizmo_);
 }
 
 void Panels::answerKeys() const {
@@ -127,6 +128,28 @@ void Workspace::givePicked(model::Model& model, const glm::dvec3& radiance) {
     }
 }
 
+namespace {
+
+/// Right of the menus: what was said last, and the document.
+void drawStatus(Studio& studio) {
+    const float em = ImGui::GetFontSize();
+    const float width = ImGui::GetWindowWidth();
+    const std::string title =
+        elided(studio.around.documentName + (studio.model.dirty() ? " *" : ""), 0.3f * width);
+    const float right = width - ImGui::CalcTextSize(title.c_str()).x - em;
+    const float left = ImGui::GetCursorPosX() + em;
+    if (!studio.log.empty() && right - left > 4.0f * em) {
+        ImGui::SameLine(left);
+        elidedText(studio.log.back().isError ? kWarning : kDimText, studio.log.back().text,
+                   right - left - 2.0f * em);
+        studio.mark("said last");
+    }
+    ImGui::SameLine(right);
+    ImGui::TextColored(kDimText, "%s", title.c_str());
+}
+
+} // namespace
+
 void Workspace::drawMenus(Studio& studio) {
     if (!ImGui::BeginMainMenuBar()) {
         return;
@@ -161,10 +184,7 @@ void Workspace::drawMenus(Studio& studio) {
         }
         ImGui::EndMenu();
     }
-    const std::string title = studio.around.documentName + (studio.model.dirty() ? " *" : "");
-    ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(title.c_str()).x -
-                    ImGui::GetFontSize());
-    ImGui::TextColored(kDimText, "%s", title.c_str());
+    drawStatus(studio);
     ImGui::EndMainMenuBar();
 }
 
@@ -196,17 +216,21 @@ void Workspace::drawPanels(Studio& studio, float top) {
     beginPanel("Viewport", left, top, right, day,
                ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoNav |
                    ImGuiWindowFlags_NoScrollWithMouse);
-    drawViewport(studio);
+    ImGui::PopStyleVar(2); // tooltips have room about their text
+    drawViewport(studio, gizmo_);
     ImGui::End();
-    ImGui::PopStyleVar(2);
 }
 
 void Workspace::drawPrompts(Studio& studio) {
     if (prompt_ == Prompt::None) {
         return;
     }
-    const char* titles[] = {"", "Open scene (.gltf, .glb)", "Open lighting (.lodestar.json)",
-                            "Open photograph (.hdr .exr .png .jpg)", "Save lighting as"};
+    const char* titles[] = {"",
+                            "Open scene (.gltf, .glb)",
+                            "Open lighting (.lodestar.json)",
+                            "Open photograph (.hdr .exr .png .jpg)",
+                            "Save lighting as",
+                            "Save the steps since it was opened (.jsonl)"};
     const char* title = titles[static_cast<int>(prompt_)];
     if (promptOpens_) {
         ImGui::OpenPopup(title);
@@ -229,6 +253,7 @@ void Workspace::drawPrompts(Studio& studio) {
     const bool cancelled = ImGui::Button("Cancel") || studio.pressed(Key::Escape);
     if (done && !path_.empty()) {
         auto& wish = prompt_ == Prompt::SaveAs           ? studio.wishes.saveAs
+                     : prompt_ == Prompt::SaveCommands   ? studio.wishes.saveCommands
                      : prompt_ == Prompt::OpenPhotograph ? studio.wishes.openPhotograph
                      : prompt_ == Prompt::OpenScene      ? studio.wishes.openScene
                                                          : studio.wishes.openLighting;
@@ -334,6 +359,12 @@ void Workspace::perform(Studio& studio, const Binding& binding) {
         return ask(Prompt::OpenPhotograph);
     case Action::SaveAs:
         return ask(Prompt::SaveAs);
+    case Action::SaveCommands:
+        return ask(Prompt::SaveCommands);
+    case Action::CopyCommands:
+        ImGui::SetClipboardText(model::writeHistory(studio.model).c_str());
+        studio.say(std::to_string(studio.model.undoCount()) + " steps copied as commands");
+        break;
     case Action::Save:
         studio.wishes.save = true;
         break;

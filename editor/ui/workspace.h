@@ -78,11 +78,12 @@ private:
     bool performOnGradient(Studio& studio, const Binding& binding);
 
     /// A path that is asked for.
-    enum class Prompt { None, OpenScene, OpenLighting, OpenPhotograph, SaveAs };
+    enum class Prompt { None, OpenScene, OpenLighting, OpenPhotograph, SaveAs, SaveCommands };
 
     ViewState view_;
     GradientPanel gradient_;
     DayPanel day_;
+    ProbeGizmo gizmo_;
     PhotographPanel photograph_;
     std::map<std::string, Mark> marks_;
     std::deque<LogLine> log_;

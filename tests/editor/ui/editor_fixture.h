@@ -24,9 +24,7 @@ protected:
         if (IsSkipped() || HasFatalFailure()) {
             return;
         }
-        auto target = gl::DisplayTarget::make(device(), kWidth, kHeight);
-        ASSERT_TRUE(target.ok()) << target.error().message();
-        target_ = std::move(*target);
+        resize(kWidth, kHeight, 1.0f);
         open({});
     }
     void TearDown() override {
@@ -45,6 +43,18 @@ protected:
         settle();
     }
 
+    /// Another display, from the next frame on. @param scale of its pixels
+    void resize(int width, int height, float scale) {
+        auto target = gl::DisplayTarget::make(device(), width, height);
+        ASSERT_TRUE(target.ok()) << target.error().message();
+        target_ = std::move(*target);
+        scale_ = scale;
+        if (editor_) {
+            send(platform::DamageEvent{});
+            settle();
+        }
+    }
+
     /// One frame, whether or not one is wanted.
     void frame() {
         editor_->advance(1.0 / 60.0);
@@ -52,7 +62,8 @@ protected:
     }
     /// The same while no time passes.
     void draw() {
-        const auto drawn = editor_->drawFrame(kWidth, kHeight, 1.0f, target_.framebuffer());
+        const auto drawn =
+            editor_->drawFrame(target_.width(), target_.height(), scale_, target_.framebuffer());
         ASSERT_TRUE(drawn.ok()) << drawn.error().message();
     }
     /// Frames until the editor wants none.
@@ -65,6 +76,16 @@ protected:
         const auto& log = editor_->workspace().log();
         ASSERT_LT(frames, 60) << "an editor that nobody touches goes on drawing: "
                               << (log.empty() ? "" : log.back().text);
+    }
+    /// Frames until nothing goes on beside them.
+    void finish() {
+        for (int i = 0; editor_->works() && i < 3000; ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            editor_->advance(0.01);
+            settle();
+        }
+        ASSERT_FALSE(editor_->works());
+        settle();
     }
     void send(const platform::Event& event) { editor_->handle(event); }
     void moveTo(const ImVec2& place) {
@@ -95,6 +116,7 @@ protected:
         settle();
     }
     void setClipboard(const std::string& text) { clipboard_ = text; }
+    [[nodiscard]] const std::string& clipboard() const { return clipboard_; }
     void control(platform::Key key, bool shift = false) {
         press(key, {shift, true, false});
         send(platform::KeyEvent{platform::Key::Control, false, false, {}});
@@ -188,6 +210,7 @@ protected:
 
 private:
     gl::DisplayTarget target_;
+    float scale_ = 1.0f;
     std::string clipboard_;
 };
 

@@ -190,7 +190,7 @@ TEST_F(EditorFilesTest, DroppedFilesAreOpenedOrPasted) {
     const std::size_t lines = editor_->workspace().log().size();
     std::ofstream(folder_.file("notes.txt")) << "words";
     send(platform::DropEvent{{folder_.file("notes.txt"), folder_.file("absent.gltf")}});
-    settle();
+    finish();
     EXPECT_EQ(editor_->workspace().log().size(), lines + 2);
     EXPECT_EQ(model().document(), before);
     EXPECT_FALSE(editor_->surroundings().work.has_value());

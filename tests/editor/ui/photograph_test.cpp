@@ -59,16 +59,6 @@ protected:
         send(platform::DropEvent{{path}});
         settle();
     }
-    /// Frames until nothing goes on beside them.
-    void finish() {
-        for (int i = 0; editor_->works() && i < 2000; ++i) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-            editor_->advance(0.01);
-            settle();
-        }
-        ASSERT_FALSE(editor_->works());
-        settle();
-    }
     void dropAndFinish(const std::string& path) {
         drop(path);
         finish();
