@@ -90,9 +90,10 @@ private:
     };
     /// A scene that has been read and goes to the GPU, beside the one that is shown.
     struct Opening {
-        Opening(gl::Device& device, std::string from, std::string within, Shown read)
+        Opening(gl::Device& device, std::string from, std::string within, Shown read,
+                const scene::Renderer* light)
             : path(std::move(from)), root(std::move(within)), shown(std::move(read)),
-              upload(device, *shown.scene) {}
+              upload(device, *shown.scene, light) {}
         std::string path, root;
         Shown shown;
         scene::RendererUpload upload;

@@ -58,6 +58,7 @@ core::Result<void> Editor::openScene(const std::string& path, const std::string&
         return core::inFile(renderer.error(), path);
     }
     shown->renderer = std::move(*renderer);
+    hasEnvironment_ = false; // it has a light of its own
     show(path, root, std::move(*shown));
     return {};
 }
@@ -73,7 +74,8 @@ void Editor::openSceneBeside(const std::string& path, const std::string& root) {
         auto shown = std::make_shared<Shown>(std::move(*read));
         return Background::Finish([this, path, root, shown] {
             warn(shown->scene->warnings, path);
-            opening_ = std::make_unique<Opening>(*device_, path, root, std::move(*shown));
+            opening_ = std::make_unique<Opening>(*device_, path, root, std::move(*shown),
+                                                 shown_.renderer.get());
         });
     };
     const std::string name = std::filesystem::path(path).filename().string();
@@ -115,7 +117,6 @@ void Editor::show(const std::string& path, const std::string& root, Shown shown)
     previewed_.reset();
     shown.scene->images.clear();
     shown_ = std::move(shown);
-    hasEnvironment_ = false;
     everSynced_ = false;
     around_.low = shown_.bounds.empty() ? glm::vec3(-1.0f) : shown_.bounds.low;
     around_.high = shown_.bounds.empty() ? glm::vec3(1.0f) : shown_.bounds.high;

@@ -99,7 +99,7 @@ Wishes Workspace::draw(model::Model& model, const Surroundings& surroundings,
         drawOutside(studio, asksOutside_);
         asksOutside_ = false;
         drawWork(studio);
-        drawHelp();
+        drawHelp(studio);
     } catch (...) { // an assertion of Dear ImGui's: what was said stays said
         keep();
         throw;
@@ -291,7 +291,7 @@ void Workspace::drawQuestion(Studio& studio) {
     ImGui::EndPopup();
 }
 
-void Workspace::drawHelp() {
+void Workspace::drawHelp(const Studio& studio) {
     if (!view_.help) {
         return;
     }
@@ -320,6 +320,9 @@ void Workspace::drawHelp() {
         row("Tab, arrows, Space", "reach every field without the pointer");
         row("Ctrl + click, Enter", "type a number");
         ImGui::EndTable();
+    }
+    if (studio.pressed(Key::Escape)) {
+        view_.help = false;
     }
     ImGui::End();
 }

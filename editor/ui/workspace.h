@@ -72,7 +72,7 @@ private:
     void drawPanels(Studio& studio, float top);
     void drawPrompts(Studio& studio);
     void drawQuestion(Studio& studio);
-    void drawHelp();
+    void drawHelp(const Studio& studio);
     void answerKeys(Studio& studio);
     void perform(Studio& studio, const Binding& binding);
     bool performOnGradient(Studio& studio, const Binding& binding);

@@ -170,7 +170,9 @@ private:
 class RendererUpload {
 public:
     /// @param scene as the renderer's
-    RendererUpload(gl::Device& device, const Scene& scene);
+    /// @param light whose environment and lights shine on it too, as beside another; it may go
+    /// first. Null: its own, none yet
+    RendererUpload(gl::Device& device, const Scene& scene, const Renderer* light = nullptr);
     ~RendererUpload();
     /// Uploads the vertices, then a texture at a time.
     /// @return the renderer once all is there, null before  @errors as Renderer::make

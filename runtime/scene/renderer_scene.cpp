@@ -20,18 +20,23 @@ core::Result<std::unique_ptr<Renderer>> Renderer::make(gl::Device& device, const
 }
 
 struct RendererUpload::Parts {
-    Parts(gl::Device& glDevice, const Scene& drawn)
-        : device(glDevice), scene(drawn), textures(texturesOf(drawn)) {}
+    Parts(gl::Device& glDevice, const Scene& drawn,
+          std::shared_ptr<Renderer::State::DistantLight> light)
+        : device(glDevice), scene(drawn), distant(std::move(light)), textures(texturesOf(drawn)) {}
 
     gl::Device& device;
     const Scene& scene;
+    std::shared_ptr<Renderer::State::DistantLight> distant;
     std::vector<TextureUse> textures;
     std::optional<GpuScene> uploaded; ///< once there are its vertices
     std::size_t next = 0;             ///< of the textures
 };
 
-RendererUpload::RendererUpload(gl::Device& device, const Scene& scene)
-    : parts_(std::make_unique<Parts>(device, scene)) {}
+RendererUpload::RendererUpload(gl::Device& device, const Scene& scene, const Renderer* light)
+    : parts_(std::make_unique<Parts>(device, scene,
+                                     light != nullptr
+                                         ? light->state_->distant
+                                         : std::make_shared<Renderer::State::DistantLight>())) {}
 RendererUpload::~RendererUpload() = default;
 
 core::Result<std::unique_ptr<Renderer>> RendererUpload::step() {
@@ -53,9 +58,8 @@ core::Result<std::unique_ptr<Renderer>> RendererUpload::step() {
         return deformation.error();
     }
     using State = Renderer::State;
-    auto state =
-        std::make_unique<State>(parts.device, parts.scene, std::move(*parts.uploaded),
-                                std::move(*deformation), std::make_shared<State::DistantLight>());
+    auto state = std::make_unique<State>(parts.device, parts.scene, std::move(*parts.uploaded),
+                                         std::move(*deformation), parts.distant);
     if (!state->observer.empty()) {
         state->probeWarnings.add("material's emission outside [0, 1e9], repaired in light probes",
                                  brokenEmissions(parts.scene));

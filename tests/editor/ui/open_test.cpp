@@ -76,6 +76,9 @@ TEST_F(OpenSceneTest, AFileIsReadBesideTheFrames) {
         draw();
         std::printf("%s: %d frames meanwhile, the longest %.0f ms (%s); its own first %.0f ms\n",
                     name, frames, longest, slowest.c_str(), since(first));
+        for (const auto& [step, ms] : around().timesMs) {
+            std::printf("  %s %.0f ms\n", step.c_str(), ms);
+        }
         EXPECT_GT(frames, 3) << name << ": the frames waited";
         settle();
         EXPECT_EQ(around().sceneName, fs::path(name).filename().string());
