@@ -251,7 +251,8 @@ void drawNumbers(Studio& studio, bool scrolls) {
 } // namespace
 
 std::string percentText(const std::optional<double>& error) {
-    return error ? formatted("%.2g", 100.0 * *error) + " %" : "\xe2\x80\x93";
+    return error ? formatted(*error < 0.1 ? "%.2g" : "%.0f", 100.0 * *error) + " %"
+                 : "\xe2\x80\x93";
 }
 
 std::string millisecondsText(const std::optional<double>& ms) {

@@ -177,7 +177,9 @@ void Workspace::drawMenus(Studio& studio) {
                 label += step.empty() ? "" : " " + std::string(step);
                 label += binding.action == Action::Undo ? "##undo" : "##redo";
             }
-            if (ImGui::MenuItem(label.c_str(), shortcutText(binding).c_str())) {
+            const bool idle = (binding.action == Action::Undo && studio.model.undoCount() == 0) ||
+                              (binding.action == Action::Redo && studio.model.redoCount() == 0);
+            if (ImGui::MenuItem(label.c_str(), shortcutText(binding).c_str(), false, !idle)) {
                 perform(studio, binding);
             }
             studio.mark(binding.label);
