@@ -164,6 +164,19 @@ int runBakeLights(const BakeOptions& options, const CLI::App& command) {
         {options.source.source, options.output, options.source.axis, options.keepSun});
 }
 
+/// The exponents that are asked for, else a document's rows of its own where `rsrm` is baked.
+core::Result<std::vector<double>> rowsOf(const BakeOptions& options, const BakeSource& source,
+                                         bool asked) {
+    if (!asked && options.layout == "rsrm" && !source.exponents.empty()) {
+        return source.exponents;
+    }
+    auto exponents = parseExponents(options.exponents, "--exponents");
+    if (exponents && exponents->size() > kMaxRows) {
+        return usage("a map has at most " + std::to_string(kMaxRows) + " rows", "--exponents");
+    }
+    return exponents;
+}
+
 int runBake(const BakeOptions& options, const CLI::App& command) {
     if (std::filesystem::path(options.output).extension() == ".json") {
         return runBakeLights(options, command);
@@ -179,15 +192,6 @@ int runBake(const BakeOptions& options, const CLI::App& command) {
     if (!layout) {
         return fail(layout.error());
     }
-    const auto exponents = parseExponents(options.exponents, "--exponents");
-    if (!exponents) {
-        return fail(exponents.error());
-    }
-    if (exponents->size() > kMaxRows) {
-        return fail(
-            usage("a map has at most " + std::to_string(kMaxRows) + " rows", "--exponents"));
-    }
-    layout->rows = static_cast<int>(exponents->size());
     core::Tally warnings;
     const auto source = loadBakeSource(
         options.source, [&](lighting::LightKind kind) { return lighting::zonesFor(*layout, kind); },
@@ -196,6 +200,11 @@ int runBake(const BakeOptions& options, const CLI::App& command) {
         return fail(source.error());
     }
     warn(warnings, options.source.source);
+    const auto exponents = rowsOf(options, *source, command.count("--exponents") > 0);
+    if (!exponents) {
+        return fail(exponents.error());
+    }
+    layout->rows = static_cast<int>(exponents->size());
     const core::Image image = decoded(*layout, filtered(*source, *layout, *exponents));
     auto answer = describe(options, *source, *layout, *exponents, image, warnings);
     if (options.errors) {
@@ -250,8 +259,10 @@ void addBake(CLI::App& app, int& status) {
         "What a picture shows: sky (default) or sun, with zones fine about the axis");
     command->add_option("--axis", source.axis,
                         "X,Y,Z that a panorama's mean is taken about (default 0,1,0, the zenith)");
-    command->add_option("--exponents", options->exponents,
-                        "Phong exponents of the rows, 0 to 1e7 (default 1,2,4,...,2048)");
+    command->add_option(
+        "--exponents", options->exponents,
+        "Phong exponents of the rows, 0 to 1e7 (default: the document's own rows, else "
+        "1,2,4,...,2048)");
     command->add_option("--columns", options->columns,
                         "Columns, 2 to 1024 (default 170, published 256)");
     command->add_option("--encoding", options->encoding,

@@ -92,7 +92,8 @@ core::Result<BakeSource> fromDocument(const BakeSourceOptions& options, const Zo
                       lighting::blended(lighting::keyRadiance(**light, moment.keys.from, zones),
                                         lighting::keyRadiance(**light, moment.keys.to, zones),
                                         moment.keys.t, moment.visibility),
-                      {}};
+                      {},
+                      document->rsrm ? document->rsrm->exponents : std::vector<double>()};
 }
 
 core::Result<BakeSource> fromPicture(const BakeSourceOptions& options, const ZonesOfKind& zonesOf,

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/result.h"
 #include "core/tally.h"
@@ -28,6 +29,7 @@ struct BakeSource {
     lighting::LightKind kind = lighting::LightKind::Sky;
     lighting::ZonalRadiance radiance; ///< in the zones asked for
     std::optional<double> residual;   ///< of a panorama, lighting::PanoramaZones
+    std::vector<double> exponents{};  ///< of the rows that a document has of its own
 };
 
 /// The zones that a kind of light is averaged in.

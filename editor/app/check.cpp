@@ -212,6 +212,8 @@ core::Result<Json> checkDocument(const std::string& file) {
     json["kind"] = "lighting";
     json["environment"] =
         document->environment ? Json(document->environment->source) : Json(nullptr);
+    const lighting::RsrmLayout maps = document::mapLayout(*document);
+    json["mapRows"] = lighting::rowExponents(maps);
     json["lights"] = Json::array();
     for (const document::Light& light : document->lights) {
         Json hours = Json::array();
@@ -222,7 +224,7 @@ core::Result<Json> checkDocument(const std::string& file) {
                                   {"kind", light.kind == lighting::LightKind::Sky ? "sky" : "sun"},
                                   {"hours", hours},
                                   {"path", light.path.has_value()},
-                                  {"mapBytes", lighting::texelBytes(lighting::kRsrm)}});
+                                  {"mapBytes", lighting::texelBytes(maps)}});
     }
     json["materials"] = Json::array();
     for (const auto& [name, material] : document->materials) {

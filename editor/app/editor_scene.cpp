@@ -210,7 +210,7 @@ void Editor::syncLights() {
         workspace_.say(lights.error().message(), true);
         return;
     }
-    shown_.renderer->setLights(std::move(*lights));
+    shown_.renderer->setLights(std::move(*lights), document::mapLayout(model_.document()));
 }
 
 void Editor::syncMaterials() {

@@ -23,13 +23,14 @@ int runPlan(const SceneOptions& options) {
     warn(loaded->light.environment.warnings, loaded->light.name);
     warn(loaded->scene.warnings, options.scene);
     warn(loaded->lightWarnings, loaded->lightsName);
-    plan::PlanInput input = scene::planInput(loaded->scene, loaded->view, loaded->settings,
-                                             {loaded->light.name,
-                                              loaded->light.environment.base.width(),
-                                              true,
-                                              !loaded->light.environment.base.empty(),
-                                              {}},
-                                             loaded->lights);
+    plan::PlanInput input =
+        scene::planInput(loaded->scene, loaded->view, loaded->settings,
+                         {loaded->light.name,
+                          loaded->light.environment.base.width(),
+                          true,
+                          !loaded->light.environment.base.empty(),
+                          {}},
+                         loaded->lights, layoutOf(loaded->lightsEstimator, loaded->ownMaps));
     if (input.environment.present && scene::hasChoices(input)) {
         const lighting::Cubemap& base = loaded->light.environment.base;
         scene::chooseEstimators(lighting::ErrorForecast(base, lighting::tentMips(base)), input);

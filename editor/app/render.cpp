@@ -146,7 +146,7 @@ core::Result<void> renderAll(const RenderOptions& options, OutputKind kind, Load
     if (!loaded.light.environment.base.empty()) {
         (*renderer)->setEnvironment(loaded.light.name, std::move(loaded.light.environment.base));
     }
-    (*renderer)->setLights(loaded.lights, *lighting::rsrmLayoutNamed(loaded.lightsEstimator));
+    (*renderer)->setLights(loaded.lights, layoutOf(loaded.lightsEstimator, loaded.ownMaps));
     warn((*renderer)->lightWarnings(), loaded.lightsName);
     std::vector<scene::Frame> frames;
     const bool sequence = options.output.find("%04d") != std::string::npos;

@@ -26,8 +26,8 @@ double lookupExponent(const LightsQuery& query) {
 
 } // namespace
 
-core::Result<const std::vector<lighting::DayLight>*> LightsSampler::lights(const std::string& file,
-                                                                           core::Tally& warnings) {
+core::Result<const LightsSampler::Lit*> LightsSampler::lit(const std::string& file,
+                                                           core::Tally& warnings) {
     auto found = documents_.find(file);
     if (found == documents_.end()) {
         const auto document = io::loadDocument(file, warnings);
@@ -39,7 +39,8 @@ core::Result<const std::vector<lighting::DayLight>*> LightsSampler::lights(const
         if (!lights) {
             return core::inFile(lights.error(), file);
         }
-        found = documents_.emplace(file, std::move(*lights)).first;
+        found =
+            documents_.emplace(file, Lit{std::move(*lights), document::mapLayout(*document)}).first;
     }
     return &found->second;
 }
@@ -54,21 +55,23 @@ core::Result<lighting::LookupAnswer> LightsSampler::answer(const LightsQuery& qu
                      "\" is no estimator of a document's lights; these are: " +
                      lighting::kRsrmNames + ", reference");
     }
-    const auto lit = lights(query.file, warnings);
-    if (!lit) {
-        return lit.error();
+    const auto found = lit(query.file, warnings);
+    if (!found) {
+        return found.error();
     }
+    const Lit& lit = **found;
     if (query.hour < 0.0 || query.hour >= 24.0) {
         warnings.add("hour outside [0, 24), wrapped");
     }
     const double exponent = lookupExponent(query);
     if (reference) {
         return lighting::LookupAnswer{
-            lighting::referenceDay(**lit, query.hour, query.direction, exponent), -1.0, 0};
+            lighting::referenceDay(lit.lights, query.hour, query.direction, exponent), -1.0, 0};
     }
     auto& maps = maps_[{query.file, query.estimator}];
     if (!maps) {
-        maps = std::make_unique<lighting::DayLookup>(**lit, *layout);
+        maps = std::make_unique<lighting::DayLookup>(
+            lit.lights, *layout == lighting::kRsrm ? lit.maps : *layout);
     }
     const auto answer = query.lobe == lighting::Lobe::Lambert
                             ? maps->lambert(query.hour, query.direction)

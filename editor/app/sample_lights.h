@@ -34,10 +34,13 @@ public:
                                                               core::Tally& warnings);
 
 private:
-    [[nodiscard]] core::Result<const std::vector<lighting::DayLight>*>
-    lights(const std::string& file, core::Tally& warnings);
+    struct Lit {
+        std::vector<lighting::DayLight> lights;
+        lighting::RsrmLayout maps; ///< what the document has for `rsrm`
+    };
+    [[nodiscard]] core::Result<const Lit*> lit(const std::string& file, core::Tally& warnings);
 
-    std::map<std::string, std::vector<lighting::DayLight>> documents_;
+    std::map<std::string, Lit> documents_;
     /// By file and estimator.
     std::map<std::pair<std::string, std::string>, std::unique_ptr<lighting::DayLookup>> maps_;
 };

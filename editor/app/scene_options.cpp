@@ -341,6 +341,7 @@ core::Result<LoadedScene> load(const SceneOptions& given) {
         loaded.lightWarnings.merge((*document)->warnings);
         loaded.lights = std::move((*document)->lights);
         loaded.lightsName = (*document)->file;
+        loaded.ownMaps = document::mapLayout((*document)->document);
     }
     if (!lightsEstimator->empty()) {
         if (loaded.lights.empty()) {
@@ -366,6 +367,10 @@ core::Result<LoadedScene> load(const SceneOptions& given) {
         return core::inFile(posed.error(), options.scene);
     }
     return loaded;
+}
+
+const lighting::RsrmLayout& layoutOf(const std::string& name, const lighting::RsrmLayout& own) {
+    return name == "rsrm" ? own : *lighting::rsrmLayoutNamed(name);
 }
 
 core::Result<void> LoadedScene::poseAt(double seconds) {

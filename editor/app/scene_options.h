@@ -9,6 +9,7 @@
 
 #include "io/environment_file.h"
 #include "lighting/day.h"
+#include "lighting/rsrm_layout.h"
 #include "scene/animation.h"
 #include "scene/camera.h"
 #include "scene/renderer.h"
@@ -72,17 +73,23 @@ struct LoadedScene {
     int sceneCount = 1;         ///< of the file, at least 1
     scene::View view;
     scene::RenderSettings settings;
-    DistantLight light;                     ///< empty where the lights stand in its place
-    std::vector<lighting::DayLight> lights; ///< of the lighting document
-    std::string lightsName;                 ///< its file
-    std::string lightsEstimator = "rsrm";   ///< rsrmLayoutNamed: how their maps are stored
-    core::Tally lightWarnings;              ///< of the document and the hour
-    int animation = scene::kRestPose;       ///< that the scene is posed by
-    double time = 0.0;                      ///< seconds into it
+    DistantLight light;                             ///< empty where the lights stand in its place
+    std::vector<lighting::DayLight> lights;         ///< of the lighting document
+    std::string lightsName;                         ///< its file
+    std::string lightsEstimator = "rsrm";           ///< rsrmLayoutNamed: how their maps are stored
+    lighting::RsrmLayout ownMaps = lighting::kRsrm; ///< what the document has for `rsrm`
+    core::Tally lightWarnings;                      ///< of the document and the hour
+    int animation = scene::kRestPose;               ///< that the scene is posed by
+    double time = 0.0;                              ///< seconds into it
 
     /// Poses the scene and looks at it anew, for a camera that moves. @param seconds finite
     [[nodiscard]] core::Result<void> poseAt(double seconds);
 };
+
+/// The layout of an estimator of lights. @param name that rsrmLayoutNamed knows
+/// @param own the document's, for `rsrm`
+[[nodiscard]] const lighting::RsrmLayout& layoutOf(const std::string& name,
+                                                   const lighting::RsrmLayout& own);
 
 /// @errors Usage for words, InputRefused for files
 [[nodiscard]] core::Result<LoadedScene> load(const SceneOptions& options);

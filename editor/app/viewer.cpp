@@ -71,6 +71,7 @@ core::Result<std::unique_ptr<Viewer>> Viewer::make(gl::Device& device, LoadedSce
     viewer->document_ = std::move(*document);
     warn(loaded.lightWarnings, loaded.lightsName);
     viewer->lightsEstimator_ = loaded.lightsEstimator;
+    viewer->ownMaps_ = loaded.ownMaps;
     viewer->takeLights(std::move(loaded.lights));
     viewer->takeLight(std::move(loaded.light));
     viewer->animation_ = loaded.animation;
@@ -174,6 +175,7 @@ void Viewer::openScene(const std::string& path, std::optional<int> number) {
         return;
     }
     document_ = std::move(*document);
+    ownMaps_ = *lighting ? document::mapLayout((*lighting)->document) : lighting::kRsrm;
     takeLights(*lighting ? std::move((*lighting)->lights) : std::vector<lighting::DayLight>());
     own ? takeLight(std::move(*own)) : showEnvironment();
     sceneIndex_ = index;

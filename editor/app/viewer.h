@@ -130,8 +130,9 @@ private:
     std::string environmentName_;
     core::Tally lightWarnings_;
     bool lightChosen_ = false; ///< by the options or dropped; otherwise a scene brings its own
-    std::vector<lighting::DayLight> lights_; ///< of the lighting document
-    std::string lightsEstimator_;            ///< how their maps are stored
+    std::vector<lighting::DayLight> lights_;         ///< of the lighting document
+    std::string lightsEstimator_;                    ///< how their maps are stored
+    lighting::RsrmLayout ownMaps_ = lighting::kRsrm; ///< what the document has for `rsrm`
     bool dayPlaying_ = false;
     std::size_t daySpeed_ = 0;
     scene::RenderSettings settings_;

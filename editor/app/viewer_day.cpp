@@ -20,7 +20,7 @@ constexpr double kDaySpeeds[] = {0.4, 1.6, 6.4, 0.1};
 void Viewer::takeLights(std::vector<lighting::DayLight> lights) {
     lights_ = std::move(lights);
     dayPlaying_ = dayPlaying_ && !lights_.empty();
-    document_.renderer->setLights(lights_, *lighting::rsrmLayoutNamed(lightsEstimator_));
+    document_.renderer->setLights(lights_, layoutOf(lightsEstimator_, ownMaps_));
 }
 
 /// A panorama that is chosen by hand is meant to be seen: no sky stands in its place.

@@ -109,8 +109,7 @@ LodestarStatus makeLight(LodestarContext& context, const LodestarLightDesc* desc
     if (!light) {
         return context.fail(LODESTAR_E_ARG, light.error());
     }
-    made.emplace(
-        PlacedLight{lighting::LightMap(std::move(*light), lighting::kRsrm, context.kernels)});
+    made.emplace(PlacedLight{lighting::LightMap(std::move(*light), context.maps, context.kernels)});
     context.log(warnings);
     return LODESTAR_OK;
 }
@@ -204,13 +203,14 @@ LodestarStatus documentApply(LodestarContext* context, LodestarDocument handle) 
         if (!lights) {
             return context->fail(LODESTAR_E_DOCUMENT, lights.error());
         }
+        const lighting::RsrmLayout maps = document::mapLayout(*document);
         // Handles of before stay stale: the new lights are added before the old ones go.
         std::vector<LodestarLight> order;
         order.reserve(lights->size());
         try {
             for (lighting::DayLight& light : *lights) {
-                order.push_back(context->lights.add(PlacedLight{
-                    lighting::LightMap(std::move(light), lighting::kRsrm, context->kernels)}));
+                order.push_back(context->lights.add(
+                    PlacedLight{lighting::LightMap(std::move(light), maps, context->kernels)}));
             }
         } catch (...) {
             for (const LodestarLight added : order) {
@@ -222,6 +222,7 @@ LodestarStatus documentApply(LodestarContext* context, LodestarDocument handle) 
             context->lights.remove(old);
         }
         context->order = std::move(order);
+        context->maps = maps;
         return LODESTAR_OK;
     });
 }
@@ -319,8 +320,7 @@ LodestarStatus lightTexels(LodestarContext* context, LodestarLight handle, int32
     });
 }
 
-LodestarStatus mapLayout(LodestarMapLayout* layout) noexcept {
-    const lighting::RsrmLayout& own = lighting::kRsrm;
+LodestarMapLayout described(const lighting::RsrmLayout& own) {
     LodestarMapLayout answer{};
     answer.columns = static_cast<std::uint32_t>(own.columns);
     answer.rows = static_cast<std::uint32_t>(own.rows);
@@ -330,7 +330,23 @@ LodestarStatus mapLayout(LodestarMapLayout* layout) noexcept {
     answer.greatest_exponent = static_cast<float>(own.greatestExponent);
     answer.first_octave = static_cast<float>(lighting::firstOctave(own));
     answer.rows_per_octave = static_cast<float>(lighting::rowsPerOctave(own));
-    return writeStruct(answer, layout) ? LODESTAR_OK : LODESTAR_E_ABI;
+    answer.own_rows = lighting::hasOwnRows(own) ? 1 : 0;
+    const auto octaves = lighting::rowOctaves(own);
+    static_assert(sizeof answer.octaves == sizeof octaves);
+    std::copy(octaves.begin(), octaves.end(), answer.octaves);
+    return answer;
+}
+
+LodestarStatus mapLayout(LodestarMapLayout* layout) noexcept {
+    return writeStruct(described(lighting::kRsrm), layout) ? LODESTAR_OK : LODESTAR_E_ABI;
+}
+
+LodestarStatus contextMapLayout(LodestarContext* context, LodestarMapLayout* layout) noexcept {
+    return entered(context, [&]() -> LodestarStatus {
+        return writeStruct(described(context->maps), layout)
+                   ? LODESTAR_OK
+                   : context->fail(LODESTAR_E_ABI, "the layout's struct_size is none");
+    });
 }
 
 /// The first line of a dialect; empty: there is no such one.
@@ -407,6 +423,7 @@ LodestarApi table() {
     api.light_state = lightState;
     api.light_texels = lightTexels;
     api.map_layout = mapLayout;
+    api.context_map_layout = contextMapLayout;
     api.glsl_text = glslText;
     api.get_extension = getExtension;
     addLookupApi(api);

@@ -111,7 +111,8 @@ struct LodestarContext {
 
     std::shared_ptr<lodestar::lighting::RsrmKernels> kernels;
     lodestar::plugin::Slots<lodestar::plugin::PlacedLight> lights;
-    std::vector<LodestarLight> order; ///< as made
+    std::vector<LodestarLight> order;                                ///< as made
+    lodestar::lighting::RsrmLayout maps = lodestar::lighting::kRsrm; ///< of all lights
     lodestar::plugin::Slots<lodestar::document::Document> documents;
     lodestar::plugin::Slots<lodestar::plugin::PlacedEnvironment> environments;
     LodestarEnvironment environment = 0; ///< the distant one

@@ -16,8 +16,7 @@ struct Kind {
 };
 
 /// Of the arrays.
-Kind kindOf(int texels) {
-    const lighting::RsrmLayout& map = lighting::kRsrm;
+Kind kindOf(int texels, const lighting::RsrmLayout& map) {
     switch (texels) {
     case LODESTAR_TEXELS_MAP:
         return {GL_RGB9_E5, GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV, map.columns, map.rows};
@@ -42,9 +41,10 @@ void GlTextures::count(std::uint64_t uploads, std::uint64_t bytes, std::uint64_t
     work_.texels_written += texels;
 }
 
-/// Arrays of as many layers as there are lights, made anew where those are others.
-void GlTextures::layOut(const std::vector<LodestarLight>& layers, Guard& kept) {
-    const bool same = layers.size() == layers_.size() &&
+/// Arrays of as many layers as there are lights, made anew where those or their maps are others.
+void GlTextures::layOut(const Packet& packet, Guard& kept) {
+    const std::vector<LodestarLight>& layers = packet.layers;
+    const bool same = packet.maps == maps_ && layers.size() == layers_.size() &&
                       std::equal(layers.begin(), layers.end(), layers_.begin(),
                                  [](LodestarLight a, const Layer& b) { return a == b.light; });
     if (same) {
@@ -63,12 +63,13 @@ void GlTextures::layOut(const std::vector<LodestarLight>& layers, Guard& kept) {
         std::fill(std::begin(arrays_), std::end(arrays_), 0u);
     }
     layers_ = std::move(wanted);
+    maps_ = packet.maps;
     if (layers_.empty()) {
         return;
     }
     gl_.genTextures(3, arrays_);
     for (int texels = 0; texels < 3; ++texels) {
-        const Kind kind = kindOf(texels);
+        const Kind kind = kindOf(texels, maps_);
         gl_.bindTexture(GL_TEXTURE_2D_ARRAY, arrays_[texels]);
         gl_.texImage3D(GL_TEXTURE_2D_ARRAY, 0, kind.internal, kind.width, kind.height,
                        static_cast<GLsizei>(layers_.size()), 0, kind.format, kind.type, nullptr);
@@ -84,7 +85,7 @@ void GlTextures::layOut(const std::vector<LodestarLight>& layers, Guard& kept) {
 
 void GlTextures::uploadLayer(int texels, std::size_t layer,
                              const std::vector<std::uint8_t>& bytes) {
-    const Kind kind = kindOf(texels);
+    const Kind kind = kindOf(texels, maps_);
     gl_.bindTexture(GL_TEXTURE_2D_ARRAY, arrays_[texels]);
     gl_.texSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, static_cast<GLint>(layer), kind.width,
                       kind.height, 1, kind.format, kind.type, bytes.data());
@@ -158,7 +159,7 @@ void GlTextures::uploadProbes(const ProbePacket& probes, Guard& kept) {
 
 void GlTextures::execute(const Packet& packet) {
     Guard kept; // a frame in which nothing changed makes no GL call
-    layOut(packet.layers, kept);
+    layOut(packet, kept);
     for (const Packet::Light& light : packet.lights) {
         Layer& layer = layers_[light.shown.layer];
         if (layer.version == light.shown.version) {
@@ -201,7 +202,7 @@ LodestarGlTexture GlTextures::texture(int texels) const {
         answer.target = GL_TEXTURE_CUBE_MAP;
         return answer;
     }
-    const Kind kind = kindOf(texels);
+    const Kind kind = kindOf(texels, maps_);
     return {sizeof(LodestarGlTexture),
             GL_TEXTURE_2D_ARRAY,
             arrays_[texels],

@@ -54,7 +54,7 @@ private:
     };
     using Guard = std::optional<StateGuard>;
     void guard(Guard& guard);
-    void layOut(const std::vector<LodestarLight>& layers, Guard& guard);
+    void layOut(const Packet& packet, Guard& guard);
     void uploadLayer(int texels, std::size_t layer, const std::vector<std::uint8_t>& bytes);
     void uploadCube(const Packet::Cube& from, Cube& to, Guard& guard);
     void uploadProbes(const ProbePacket& probes, Guard& guard);
@@ -65,6 +65,7 @@ private:
     LodestarWork work_{sizeof(LodestarWork), 0, 0, 0, 0, 0};
     GLuint arrays_[3] = {};
     std::vector<Layer> layers_;
+    lighting::RsrmLayout maps_ = lighting::kRsrm; ///< of the arrays
     Cube environment_, irradiance_;
     std::vector<ProbeCubes> probes_;
 };

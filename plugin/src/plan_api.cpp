@@ -116,6 +116,8 @@ constexpr std::array kUniforms = {
     vec4At("lodestar_axes", offsetof(LodestarLighting, lodestar_axes), LODESTAR_MAX_LIGHTS_SHOWN),
     vec4At("lodestar_spreads", offsetof(LodestarLighting, lodestar_spreads),
            LODESTAR_MAX_LIGHTS_SHOWN / 4),
+    vec4At("lodestar_mapOctaves", offsetof(LodestarLighting, lodestar_mapOctaves),
+           LODESTAR_MAP_ROW_VECTORS),
     sampler("lodestar_maps", LODESTAR_UNIFORM_ARRAY, LODESTAR_TEXELS_MAP),
     sampler("lodestar_lamberts", LODESTAR_UNIFORM_ARRAY, LODESTAR_TEXELS_LAMBERT),
     sampler("lodestar_gradients", LODESTAR_UNIFORM_ARRAY, LODESTAR_TEXELS_GRADIENT),

@@ -2,6 +2,7 @@
 #include "plans.h"
 
 #include <algorithm>
+#include <cstring>
 #include <string>
 
 #include "context.h"
@@ -109,7 +110,8 @@ std::vector<lighting::DayMoment> describeLights(LodestarContext& context, plan::
         input.rsrmLights.push_back(std::move(view));
         moments.push_back(moment);
     }
-    input.rsrmGreatestExponent = lighting::kRsrm.greatestExponent;
+    input.rsrmGreatestExponent = context.maps.greatestExponent;
+    input.rsrmRows = lighting::hasOwnRows(context.maps);
     return moments;
 }
 
@@ -218,7 +220,7 @@ blocks::LodestarLighting uniformsOf(const Packet& packet) {
                                        from.texels->scale)
                            : glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
     };
-    const lighting::RsrmLayout& map = lighting::kRsrm;
+    const lighting::RsrmLayout& map = packet.maps;
     const bool environment = packet.environment.texels || packet.irradiance.texels;
     std::vector<bool> skies;
     for (const Packet::Light& light : packet.lights) {
@@ -231,6 +233,9 @@ blocks::LodestarLighting uniformsOf(const Packet& packet) {
     uniforms.lodestar_mapSize = {map.columns, map.rows, map.leastExponent, map.greatestExponent};
     uniforms.lodestar_mapRows = {lighting::firstOctave(map), lighting::rowsPerOctave(map),
                                  lighting::kLambertColumns, lighting::kGradientColumns};
+    const auto octaves = lighting::rowOctaves(map);
+    static_assert(sizeof octaves == sizeof uniforms.lodestar_mapOctaves);
+    std::memcpy(uniforms.lodestar_mapOctaves, octaves.data(), sizeof octaves);
     for (std::size_t i = 0; i < packet.lights.size(); ++i) {
         const LodestarPlannedLight& light = packet.lights[i].shown;
         uniforms.lodestar_axes[i] = {light.axis[0], light.axis[1], light.axis[2], light.layer};
@@ -250,7 +255,8 @@ std::uint32_t featureBits(plan::Features features) {
            flag(plan::Feature::RsrmLights, LODESTAR_FEATURE_LIGHTS) |
            flag(plan::Feature::RsrmMirror, LODESTAR_FEATURE_MIRROR) |
            flag(plan::Feature::Probe, LODESTAR_FEATURE_PROBE) |
-           flag(plan::Feature::SecondProbe, LODESTAR_FEATURE_SECOND_PROBE);
+           flag(plan::Feature::SecondProbe, LODESTAR_FEATURE_SECOND_PROBE) |
+           flag(plan::Feature::RsrmRows, LODESTAR_FEATURE_ROWS);
 }
 
 core::Result<std::shared_ptr<const Packet>> makePacket(LodestarContext& context,
@@ -279,6 +285,7 @@ core::Result<std::shared_ptr<const Packet>> makePacket(LodestarContext& context,
     auto made = std::make_shared<Packet>();
     Packet& packet = *made;
     packet.plan = plan::plan(input);
+    packet.maps = context.maps;
     packet.work.struct_size = sizeof packet.work;
     keepLights(context, moments, packet);
     keepEnvironment(context, input.environment.present, packet);

@@ -34,8 +34,9 @@ struct Packet {
         std::shared_ptr<const lighting::CubeTexels> texels; ///< null: nothing reads it
     };
     plan::EffectPlan plan;
-    std::vector<LodestarLight> layers; ///< what the layers of the arrays are of
-    std::vector<Light> lights;         ///< those that the frame is lit by
+    lighting::RsrmLayout maps = lighting::kRsrm; ///< of the lights
+    std::vector<LodestarLight> layers;           ///< what the layers of the arrays are of
+    std::vector<Light> lights;                   ///< those that the frame is lit by
     Cube environment, irradiance;
     std::vector<LodestarFaceJob> jobs;
     ProbePacket probes;

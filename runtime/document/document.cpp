@@ -40,4 +40,8 @@ core::Result<std::vector<lighting::DayLight>> dayLights(const Document& document
     return lights;
 }
 
+lighting::RsrmLayout mapLayout(const Document& document) {
+    return lighting::rsrmWithRows(document.rsrm ? document.rsrm->exponents : std::vector<double>());
+}
+
 } // namespace lodestar::document

@@ -16,6 +16,7 @@
 #include "core/tally.h"
 #include "lighting/day.h"
 #include "lighting/probe.h"
+#include "lighting/rsrm_layout.h"
 
 namespace lodestar::document {
 
@@ -90,9 +91,18 @@ struct Probe {
     bool operator==(const Probe&) const = default;
 };
 
+/// How the maps of skies and suns are made.
+struct Rsrm {
+    /// Of their rows: none for the default ones, or 2 to 24 as lighting::faultOfRows has them.
+    std::vector<double> exponents;
+    Unknown unknown;
+    bool operator==(const Rsrm&) const = default;
+};
+
 struct Document {
     std::optional<Environment> environment;
     std::vector<Light> lights;
+    std::optional<Rsrm> rsrm;
     std::vector<Probe> probes;
     std::map<std::string, Material> materials; ///< by glTF name or "#index"
     Unknown unknown;
@@ -111,5 +121,8 @@ struct Document {
 /// @errors InputRefused with the JSON pointer from the document's root
 [[nodiscard]] core::Result<std::vector<lighting::DayLight>> dayLights(const Document& document,
                                                                       core::Tally& warnings);
+
+/// The layout of the lights' maps: `rsrm`, with the document's rows if it has some.
+[[nodiscard]] lighting::RsrmLayout mapLayout(const Document& document);
 
 } // namespace lodestar::document

@@ -157,6 +157,27 @@ Environment readEnvironment(const Reader& reader) {
     return environment;
 }
 
+Rsrm readRsrm(const Reader& reader) {
+    Rsrm rsrm;
+    if (!reader.isObject()) {
+        return rsrm;
+    }
+    if (const auto exponents = reader.member("exponents")) {
+        std::vector<Reader> places;
+        exponents->forEach([&](const Reader& exponent) {
+            rsrm.exponents.push_back(exponent.number());
+            places.push_back(exponent);
+        });
+        const lighting::RowsFault fault = lighting::faultOfRows(rsrm.exponents);
+        if (!fault.words.empty()) {
+            (fault.row < places.size() ? places[fault.row] : *exponents)
+                .refuse("exponents of rows: " + fault.words);
+        }
+    }
+    rsrm.unknown = reader.unknown({"exponents"});
+    return rsrm;
+}
+
 glm::dvec3 readReflectance(const Reader& reader) {
     const glm::dvec3 value = reader.vector();
     for (int c = 0; c < 3; ++c) {
@@ -216,6 +237,9 @@ Document readDocument(const Reader& reader) {
     if (const auto lights = reader.member("lights")) {
         lights->forEach([&](const Reader& light) { document.lights.push_back(readLight(light)); });
     }
+    if (const auto rsrm = reader.member("rsrm")) {
+        document.rsrm = readRsrm(*rsrm);
+    }
     if (const auto probes = reader.member("probes")) {
         probes->forEach([&](const Reader& probe) { document.probes.push_back(readProbe(probe)); });
     }
@@ -224,7 +248,8 @@ Document readDocument(const Reader& reader) {
             document.materials[name] = readMaterial(*materials->member(name));
         }
     }
-    document.unknown = reader.unknown({"lodestar", "environment", "lights", "probes", "materials"});
+    document.unknown =
+        reader.unknown({"lodestar", "environment", "lights", "rsrm", "probes", "materials"});
     return document;
 }
 

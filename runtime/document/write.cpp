@@ -124,6 +124,18 @@ Json toJson(const Environment& environment) {
     return object;
 }
 
+Json toJson(const Rsrm& rsrm) {
+    Json object = Json::object();
+    if (!rsrm.exponents.empty()) {
+        object["exponents"] = Json::array();
+        for (const double exponent : rsrm.exponents) {
+            object["exponents"].push_back(finite(exponent));
+        }
+    }
+    addUnknown(object, rsrm.unknown);
+    return object;
+}
+
 Json toJson(const Material& material) {
     Json object = Json::object();
     if (material.exponent) {
@@ -171,6 +183,9 @@ std::string writeDocument(const Document& document) {
     object["lights"] = Json::array();
     for (const Light& light : document.lights) {
         object["lights"].push_back(toJson(light));
+    }
+    if (document.rsrm) {
+        object["rsrm"] = toJson(*document.rsrm);
     }
     if (!document.probes.empty()) {
         object["probes"] = Json::array();

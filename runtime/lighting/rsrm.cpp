@@ -14,6 +14,7 @@
 #include "core/contract.h"
 #include "core/half.h"
 
+#define LODESTAR_RSRM_ROWS 1
 #include "lodestar/rsrm.glsl"
 
 namespace lodestar::lighting {
@@ -290,6 +291,7 @@ namespace {
 struct RsrmCpuHost {
     const lighting::RsrmTexels* texels = nullptr;
     std::span<const vec3> gradient;
+    std::array<float, lighting::kMostOwnRows> octaves{}; ///< where the layout has its own rows
 
 #define LODESTAR_HOST_CLASS
 #include "lodestar/rsrm.glsl"
@@ -312,6 +314,11 @@ struct RsrmCpuHost {
         const auto count = static_cast<float>(texels->lambert.size());
         return published() ? between(texels->lambert, u * count - 0.5f)
                            : between(texels->lambert, u * (count - 1.0f));
+    }
+
+    [[nodiscard]] vec4 lodestar_host_rsrmOctaves(int index) const {
+        const float* four = octaves.data() + 4 * index;
+        return {four[0], four[1], four[2], four[3]};
     }
 
     [[nodiscard]] vec3 lodestar_host_rsrmGradient(float u2, int) const {
@@ -360,8 +367,15 @@ glm::vec3 rsrmRadiance(const RsrmTexels& texels, std::span<const glm::vec3> grad
     LODESTAR_EXPECT(gradient.size() >= 2, "a gradient has a value at either pole");
     shader::RsrmCpuHost host{&texels, gradient};
     const shader::LodestarRsrm map = shader::describe(texels.layout);
-    return host.lodestar_rsrm(map, shader::directionAt(theta),
-                              shader::lodestar_rsrmRow(map, static_cast<float>(exponent)));
+    const auto s = static_cast<float>(exponent);
+    float row = 0.0f;
+    if (hasOwnRows(texels.layout)) {
+        host.octaves = rowOctaves(texels.layout);
+        row = host.lodestar_rsrmOwnRow(map, s);
+    } else {
+        row = shader::lodestar_rsrmRow(map, s);
+    }
+    return host.lodestar_rsrm(map, shader::directionAt(theta), row);
 }
 
 glm::vec3 rsrmLambert(const RsrmTexels& texels, double theta) {

@@ -2,6 +2,7 @@
 #define LODESTAR_DOUBLE_PRECISION
 #include "lighting/rsrm_layout.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -57,7 +58,66 @@ std::vector<double> columnAngles(RsrmColumns map, int columns) {
     return angles;
 }
 
+RowsFault faultOfRows(std::span<const double> exponents) {
+    if (exponents.size() < 2 || exponents.size() > kMostOwnRows) {
+        return {exponents.size(), "2 to 24 are needed"};
+    }
+    for (std::size_t i = 0; i < exponents.size(); ++i) {
+        if (!(exponents[i] >= kLeastOwnExponent && exponents[i] <= kGreatestOwnExponent)) {
+            return {i, "each lies in [1, 16384]"};
+        }
+        if (i > 0 && !(exponents[i] >= kLeastRowRatio * exponents[i - 1])) {
+            return {i, "each is at least 1.01 times the one before"};
+        }
+    }
+    return {};
+}
+
+RsrmLayout rsrmWithRows(std::span<const double> exponents) {
+    RsrmLayout layout = kRsrm;
+    if (exponents.empty()) {
+        return layout;
+    }
+    LODESTAR_EXPECT(faultOfRows(exponents).words.empty(),
+                    "the rows' exponents rise in their range");
+    layout.rows = static_cast<int>(exponents.size());
+    layout.leastExponent = exponents.front();
+    layout.greatestExponent = exponents.back();
+    std::copy(exponents.begin(), exponents.end(), layout.ownExponents.begin());
+    return layout;
+}
+
+std::vector<double> rowExponents(const RsrmLayout& layout) {
+    std::vector<double> exponents;
+    for (int row = 0; row < layout.rows; ++row) {
+        exponents.push_back(rowExponent(layout, row));
+    }
+    return exponents;
+}
+
+std::array<float, kMostOwnRows> rowOctaves(const RsrmLayout& layout) {
+    LODESTAR_EXPECT(layout.rows <= kMostOwnRows && layout.columnMap == RsrmColumns::Refined,
+                    "the table holds the layout's rows");
+    std::array<float, kMostOwnRows> octaves{};
+    for (int row = 0; row < kMostOwnRows; ++row) {
+        octaves[static_cast<std::size_t>(row)] = static_cast<float>(
+            std::log2(rowExponent(layout, std::min(row, layout.rows - 1)) + 1.0));
+    }
+    return octaves;
+}
+
 double rowExponent(const RsrmLayout& layout, double row) {
+    if (hasOwnRows(layout)) {
+        const auto before =
+            std::min(static_cast<std::size_t>(row), static_cast<std::size_t>(layout.rows) - 2);
+        const double share = row - static_cast<double>(before);
+        const double below = layout.ownExponents[before];
+        const double above = layout.ownExponents[before + 1];
+        return share == 0.0 ? below
+               : share == 1.0
+                   ? above
+                   : (below + 1.0) * std::pow((above + 1.0) / (below + 1.0), share) - 1.0;
+    }
     const double shift = rowShift(layout);
     const double least = layout.leastExponent + shift;
     const double most = layout.greatestExponent + shift;
@@ -92,15 +152,12 @@ std::vector<double> fitPlaces(const RsrmLayout& layout) {
 }
 
 std::vector<double> bakedExponents(const RsrmLayout& layout) {
-    std::vector<double> exponents;
-    if (layout.fitted) {
-        for (const double place : fitPlaces(layout)) {
-            exponents.push_back(rowExponent(layout, place));
-        }
-        return exponents;
+    if (!layout.fitted) {
+        return rowExponents(layout);
     }
-    for (int row = 0; row < layout.rows; ++row) {
-        exponents.push_back(rowExponent(layout, row));
+    std::vector<double> exponents;
+    for (const double place : fitPlaces(layout)) {
+        exponents.push_back(rowExponent(layout, place));
     }
     return exponents;
 }

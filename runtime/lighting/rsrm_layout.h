@@ -4,7 +4,10 @@
 // holds (docs/derivations/rsrm.md says what each layout's error is).
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -22,6 +25,10 @@ enum class RsrmEncoding {
     Float,          ///< RGBA32F, 16 bytes
 };
 
+/// Rows that a layout may be given one by one: as many as `rsrm` has, so that no map is larger than
+/// that.
+inline constexpr int kMostOwnRows = 24;
+
 struct RsrmLayout {
     RsrmColumns columnMap = RsrmColumns::Refined;
     int columns = 0; ///< >= 2
@@ -33,6 +40,9 @@ struct RsrmLayout {
     bool sampledWeights = false; ///< Stone's eq. 1 instead of exact weights
     double leastExponent = 1.0;  ///< of row 0, > 0
     double greatestExponent = 2048.0;
+    /// Where rows are given one by one: their exponents, `rows` of them, the rest 0. All 0: rows
+    /// are uniform between the two above. Only of Refined columns.
+    std::array<double, kMostOwnRows> ownExponents{};
     bool operator==(const RsrmLayout&) const = default;
 };
 
@@ -49,6 +59,34 @@ inline constexpr RsrmLayout kRsrmPublished{RsrmColumns::UniformHeight, 256,   8,
 inline constexpr RsrmLayout kRsrmPublishedColumns{RsrmColumns::UniformHeight, 256,   8,
                                                   RsrmEncoding::Unorm8,       false, false};
 
+/// What rows that are given one by one may be (RSRM-13).
+inline constexpr double kLeastOwnExponent = 1.0;
+inline constexpr double kGreatestOwnExponent = 16384.0;
+inline constexpr double kLeastRowRatio = 1.01; ///< of a row's exponent over that of the row before
+
+/// What is wrong with exponents of rows, and with which of them.
+struct RowsFault {
+    std::size_t row = 0; ///< their number where there are too few or too many
+    std::string words;   ///< the rule that it breaks; empty: none
+};
+[[nodiscard]] RowsFault faultOfRows(std::span<const double> exponents);
+
+/// `rsrm` with rows at these exponents; with its own 24 where there are none.
+/// @pre none, or faultOfRows finds nothing
+[[nodiscard]] RsrmLayout rsrmWithRows(std::span<const double> exponents);
+
+/// Whether a layout's rows were given one by one.
+[[nodiscard]] constexpr bool hasOwnRows(const RsrmLayout& layout) {
+    return layout.ownExponents[0] > 0.0;
+}
+
+/// The exponents of a layout's rows.
+[[nodiscard]] std::vector<double> rowExponents(const RsrmLayout& layout);
+
+/// log2(s + 1) of the rows, the last one's again behind it: what lodestar_host_rsrmOctaves answers,
+/// four a vector, where the layout has Refined columns and kMostOwnRows rows at most.
+[[nodiscard]] std::array<float, kMostOwnRows> rowOctaves(const RsrmLayout& layout);
+
 /// The layout of an estimator's name: rsrm, rsrm-published, rsrm-published-columns; null for
 /// others.
 [[nodiscard]] const RsrmLayout* rsrmLayoutNamed(std::string_view name);
@@ -60,7 +98,8 @@ inline constexpr const char* kRsrmNames = "rsrm, rsrm-published, rsrm-published-
 [[nodiscard]] std::vector<double> columnAngles(RsrmColumns map, int columns);
 
 /// The exponent of a row or of a place between rows: rows are uniform in log(s + 1), in log s for
-/// UniformHeight. @param row [0, rows - 1]
+/// UniformHeight; between rows that were given one by one log(s + 1) is linear.
+/// @param row [0, rows - 1]
 [[nodiscard]] double rowExponent(const RsrmLayout& layout, double row);
 
 /// log2 of the first row's exponent, of that + 1 for Refined: LodestarRsrm.firstOctave.

@@ -27,6 +27,7 @@ auto sharing(const DrawView& draw, const Pair& probes) {
 Features lightFeatures(const PlanInput& input, const EffectPlan& result) {
     Features features = input.environment.present ? bit(Feature::Environment) : 0u;
     features |= result.rsrmLights.empty() ? 0u : bit(Feature::RsrmLights);
+    features |= !result.rsrmLights.empty() && input.rsrmRows ? bit(Feature::RsrmRows) : 0u;
     features |= result.shadowedLights() > 0 ? bit(Feature::Shadows) : 0u;
     features |= input.fresnel == lighting::FresnelForm::Sg ? bit(Feature::SgFresnel) : 0u;
     if (input.lightCount > 0) {

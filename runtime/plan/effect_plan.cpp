@@ -13,7 +13,7 @@ namespace {
 
 using lighting::PreparedParts;
 
-constexpr std::array<const char*, 33> kFeatureNames = {"normals",
+constexpr std::array<const char*, 34> kFeatureNames = {"normals",
                                                        "tangents",
                                                        "vertex-colors",
                                                        "base-color-texture",
@@ -45,7 +45,8 @@ constexpr std::array<const char*, 33> kFeatureNames = {"normals",
                                                        "taps-64",
                                                        "sg-lobes",
                                                        "sg-fresnel",
-                                                       "probe-skies"};
+                                                       "probe-skies",
+                                                       "rsrm-rows"};
 
 /// Texels of a whole chain of six faces.
 std::uint64_t chainTexels(int width) {

@@ -52,6 +52,7 @@ enum class Feature : std::uint64_t {
     SgLobes = 1u << 30,                  ///< highlights of analytic lights are spherical Gaussians
     SgFresnel = 1u << 31,                ///< Fresnel's reflectance is a spherical Gaussian's
     ProbeSkies = std::uint64_t{1} << 32, ///< a probe that holds it keeps the sky's part apart
+    RsrmRows = std::uint64_t{1} << 33,   ///< the maps' rows were given one by one
 };
 
 using Features = std::uint64_t;
@@ -139,6 +140,7 @@ struct PlanInput {
     std::vector<RsrmLightView> rsrmLights;
     bool rsrmPublished = false;           ///< the layout of their maps
     double rsrmGreatestExponent = 2048.0; ///< Phong exponent of their maps' last row
+    bool rsrmRows = false;                ///< their maps' rows were given one by one
     std::uint64_t shadowTexels = 0;       ///< of one shadow map
     /// Instances stand in pages, those of the draws, then the casters'; no call reads two of them.
     std::size_t instancesPerPage = std::numeric_limits<std::size_t>::max();

@@ -2,6 +2,7 @@
 #include "scene/gpu_lights.h"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include "core/contract.h"
@@ -57,7 +58,10 @@ GpuLights::GpuLights(std::vector<lighting::DayLight> lights, const lighting::Rsr
 void GpuLights::keep(GpuLights&& before) {
     paintings_ = before.paintings_;
     const bool fits = layout_ == before.layout_;
-    if (fits && lights_.size() == before.lights_.size()) {
+    const bool sameTexels =
+        layout_.rows == before.layout_.rows && layout_.columns == before.layout_.columns &&
+        layout_.encoding == before.layout_.encoding && layout_.fitted == before.layout_.fitted;
+    if (sameTexels && lights_.size() == before.lights_.size()) {
         maps_ = std::move(before.maps_);
         lamberts_ = std::move(before.lamberts_);
         gradients_ = std::move(before.gradients_);
@@ -176,6 +180,11 @@ void GpuLights::describe(const plan::EffectPlan& plan, blocks::LodestarRsrmLight
     block.rsrmRows = {static_cast<float>(lighting::firstOctave(layout_)),
                       static_cast<float>(lighting::rowsPerOctave(layout_)),
                       published() ? 1.0f : (line - 1.0f) / line, published() ? 0.0f : 0.5f / line};
+    if (lighting::hasOwnRows(layout_)) {
+        const auto octaves = lighting::rowOctaves(layout_);
+        static_assert(sizeof octaves == sizeof block.rsrmOctaves);
+        std::memcpy(block.rsrmOctaves, octaves.data(), sizeof octaves);
+    }
     for (std::size_t i = 0; i < plan.rsrmLights.size(); ++i) {
         const plan::LitLight& lit = plan.rsrmLights[i];
         const Light& light = lights_[lit.light];

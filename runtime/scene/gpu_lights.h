@@ -42,8 +42,8 @@ public:
     [[nodiscard]] bool empty() const { return lights_.empty(); }
     /// Whether the maps have the published columns and rows.
     [[nodiscard]] bool published() const;
-    /// The Phong exponent of the maps' last row.
-    [[nodiscard]] double greatestExponent() const { return layout_.greatestExponent; }
+    /// How the maps are stored.
+    [[nodiscard]] const lighting::RsrmLayout& layout() const { return layout_; }
     /// The name of a sky that stands in the environment's place; empty if none does.
     [[nodiscard]] std::string replacement() const;
     [[nodiscard]] const core::Tally& warnings() const { return warnings_; }

@@ -107,7 +107,8 @@ void describeLights(const Scene& scene, const std::vector<DrawItem>& items, doub
                     GpuLights& lights, ShadowMaps& shadows, plan::PlanInput& input) {
     input.rsrmLights = lights.describe(hour);
     input.rsrmPublished = lights.published();
-    input.rsrmGreatestExponent = lights.greatestExponent();
+    input.rsrmGreatestExponent = lights.layout().greatestExponent;
+    input.rsrmRows = lighting::hasOwnRows(lights.layout());
     std::vector<glm::dvec3> axes;
     for (std::size_t i = 0; i < input.rsrmLights.size(); ++i) {
         axes.push_back(lights.axis(i));
@@ -119,8 +120,9 @@ void describeLights(const Scene& scene, const std::vector<DrawItem>& items, doub
 
 plan::PlanInput planInput(const Scene& scene, const View& view, const RenderSettings& settings,
                           plan::EnvironmentView environment,
-                          const std::vector<lighting::DayLight>& lights) {
-    GpuLights described(lights, lighting::kRsrm, nullptr); // it bakes nothing
+                          const std::vector<lighting::DayLight>& lights,
+                          const lighting::RsrmLayout& layout) {
+    GpuLights described(lights, layout, nullptr); // it bakes nothing
     ShadowMaps shadows;
     plan::PlanInput input =
         planInput(scene, view, settings, beside(std::move(environment), described));

@@ -77,11 +77,12 @@ struct ReferenceTaps {
                                         const plan::EnvironmentView& environment);
 
 /// The same of a first frame under skies and suns too. @param lights as lighting::repaired leaves
-/// them
+/// them  @param layout of their maps
 [[nodiscard]] plan::PlanInput planInput(const Scene& scene, const View& view,
                                         const RenderSettings& settings,
                                         plan::EnvironmentView environment,
-                                        const std::vector<lighting::DayLight>& lights);
+                                        const std::vector<lighting::DayLight>& lights,
+                                        const lighting::RsrmLayout& layout = lighting::kRsrm);
 
 /// Draws one scene under one environment, day lights, or both. The scene must outlive the renderer
 /// unchanged but for its pose, node transforms and morph weights, and what materialsChanged says.

@@ -23,6 +23,8 @@ using glm::vec4;
 #define LODESTAR_MAX_LIGHTS 16
 #define LODESTAR_MAX_RSRM_LIGHTS 32
 #define LODESTAR_MAX_SHADOWS 4
+// Of four rows each, as many as a map may be given.
+#define LODESTAR_ROW_VECTORS 6
 // A light probe's tile has 25 texels of irradiance a side; two rows beneath it tell of suns.
 #define LODESTAR_SUN_TEXELS 25
 #define LODESTAR_SUN_ROWS 2
@@ -62,6 +64,7 @@ LODESTAR_BLOCK(LodestarRsrmLights)
     vec4 rsrmScale[LODESTAR_MAX_RSRM_LIGHTS];  ///< x: scale of its map; y: 1 for a sky, 0 for a sun; z: its spread
     mat4 shadowFromWorld[LODESTAR_MAX_SHADOWS]; ///< to a layer's texture coordinates and depth
     vec4 shadowTexel[LODESTAR_MAX_SHADOWS];     ///< x: metres of one of its texels
+    vec4 rsrmOctaves[LODESTAR_ROW_VECTORS]; ///< log2(s + 1) of the maps' rows where those were given one by one
 LODESTAR_BLOCK_END(LodestarRsrmLights)
 
 LODESTAR_BLOCK(LodestarMaterial)

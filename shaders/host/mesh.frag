@@ -67,7 +67,7 @@ vec3 rsrmLights(LodestarSurface here) {
     LodestarLookup lookup = LODESTAR_RSRM_LAYOUT == LODESTAR_RSRM_PUBLISHED
                                 ? lodestar_lookupAsGiven(here.normal, here.view, here.exponent)
                                 : lodestar_lookup(here.normal, here.view, here.exponent);
-    float row = lodestar_rsrmRow(rsrmLight(0), lookup.exponent);
+    float row = rsrmRow(lookup.exponent);
     vec3 lambert = vec3(0.0);
     vec3 glossy = vec3(0.0);
     for (int i = 0; i < LODESTAR_RSRM_LIGHTS; ++i) {
@@ -93,7 +93,7 @@ vec3 rsrmLights(LodestarSurface here) {
         } else {
             LodestarSunLookup sun = lodestar_sunLookup(here.normal, here.view, here.exponent, lookup.direction,
                                                        lookup.exponent, map.axis, rsrmScale[i].z);
-            glossy += visible * lodestar_rsrmAt(map, sun.halfChord, lodestar_rsrmRow(map, sun.exponent));
+            glossy += visible * lodestar_rsrmAt(map, sun.halfChord, rsrmRow(sun.exponent));
         }
 #endif
 #endif

@@ -5,6 +5,7 @@
 // Variants say how many lights there are:
 //   LODESTAR_RSRM_LIGHTS     how many light the frame
 //   LODESTAR_RSRM_LAYOUT     LodestarRsrm.layoutName of their maps
+//   LODESTAR_RSRM_ROWS       1: their rows were given one by one
 #if LODESTAR_RSRM_LIGHTS
 
 uniform sampler2DArray uRsrmMaps;
@@ -28,6 +29,10 @@ vec3 lodestar_host_rsrmGradient(float u2, int light) {
     return root * root;
 }
 
+#if LODESTAR_RSRM_ROWS
+vec4 lodestar_host_rsrmOctaves(int index) { return rsrmOctaves[index]; }
+#endif
+
 LodestarRsrm rsrmLight(int light) {
     LodestarRsrm map;
     map.layer = light;
@@ -40,6 +45,15 @@ LodestarRsrm rsrmLight(int light) {
     map.firstOctave = rsrmRows.x;
     map.rowsPerOctave = rsrmRows.y;
     return map;
+}
+
+/// The row of an exponent, in every map the same.
+float rsrmRow(float exponent) {
+#if LODESTAR_RSRM_ROWS
+    return lodestar_rsrmOwnRow(rsrmLight(0), exponent);
+#else
+    return lodestar_rsrmRow(rsrmLight(0), exponent);
+#endif
 }
 
 /// What all lights paint in a direction.

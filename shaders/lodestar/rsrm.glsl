@@ -12,9 +12,12 @@
 //     layout, on texel edges in the published ones.
 //   vec3 lodestar_host_rsrmGradient(u2, layer)
 //     unfiltered radiance at u2 in [0, 1], both ends on texel centres, in every layout.
+//   vec4 lodestar_host_rsrmOctaves(index), with LODESTAR_RSRM_ROWS
+//     log2(s + 1) of the rows 4 index to 4 index + 3; index in [0, 5], only rows that there are are read.
 //
-// Feature macro: LODESTAR_RSRM_MIRROR 0 leaves the gradient out of lodestar_rsrm, for surfaces whose
-// exponents lie within the map's rows (default 1).
+// Feature macros: LODESTAR_RSRM_MIRROR 0 leaves the gradient out of lodestar_rsrm, for surfaces whose
+// exponents lie within the map's rows (default 1). LODESTAR_RSRM_ROWS 1 has lodestar_rsrmOwnRow, for
+// refined maps whose rows' exponents were given one by one (default 0).
 //
 // Source: Stone, radially symmetric reflection maps; storage and errors: docs/derivations/rsrm.md.
 //
@@ -26,6 +29,9 @@
 
 #ifndef LODESTAR_RSRM_MIRROR
 #define LODESTAR_RSRM_MIRROR 1
+#endif
+#ifndef LODESTAR_RSRM_ROWS
+#define LODESTAR_RSRM_ROWS 0
 #endif
 
 LODESTAR_BEGIN
@@ -124,6 +130,39 @@ LODESTAR_RSRM_BEGIN
 vec4 lodestar_host_rsrm(Real column, Real row, int layer);
 vec3 lodestar_host_rsrmLambert(Real u, int layer);
 vec3 lodestar_host_rsrmGradient(Real u2, int layer);
+#if LODESTAR_RSRM_ROWS
+vec4 lodestar_host_rsrmOctaves(int index);
+#endif
+#endif
+
+#if LODESTAR_RSRM_ROWS
+/// log2(s + 1) of a row. @param row [0, 23]
+LODESTAR_FN Real lodestar_rsrmOctave(int row) {
+    vec4 four = lodestar_host_rsrmOctaves(row / 4);
+    return four[row % 4];
+}
+
+/// lodestar_rsrmRow of a refined map whose rows were given one by one, 24 at most: between two rows
+/// linear in log2(s + 1) (RSRM-13).
+LODESTAR_FN Real lodestar_rsrmOwnRow(LodestarRsrm map, Real exponent) {
+    Real s = lodestar_repairExponent(exponent);
+    Real octave = log2(clamp(s, map.leastExponent, map.greatestExponent) + 1.0f);
+    int last = int(map.rows) - 1;
+    int below = 0; // the last row but one whose octave is not above, found by halving
+    for (int step = 16; step > 0; step /= 2) {
+        int next = below + step;
+        if (next < last && lodestar_rsrmOctave(next) <= octave) {
+            below = next;
+        }
+    }
+    Real low = lodestar_rsrmOctave(below);
+    Real high = lodestar_rsrmOctave(below + 1);
+    Real row = Real(below) + clamp((octave - low) / (high - low), Real(0.0f), Real(1.0f));
+#if LODESTAR_RSRM_MIRROR
+    row += lodestar_rsrmMirrorShare(s, map.greatestExponent);
+#endif
+    return row;
+}
 #endif
 
 /// The unfiltered gradient in a direction: what a mirror and the backdrop show.

@@ -8,6 +8,7 @@
 //   LODESTAR_WITH_ENVIRONMENT      0: the draw takes no light of an environment
 //   LODESTAR_WITH_LIGHTS           0: nor of skies and suns
 //   LODESTAR_RSRM_MIRROR           0: no exponent exceeds the maps' last row
+//   LODESTAR_RSRM_ROWS             0: the maps have the default rows; else a document's too
 //   LODESTAR_WITH_PROBES           1, 2: as many light probes hold it; the host calls
 //                                  lodestar_lightingAt
 //   LODESTAR_WITH_HOST_VISIBILITY  1: the host defines lodestar_host_visibility, its shadow term
@@ -19,6 +20,9 @@
 #endif
 #ifndef LODESTAR_WITH_PROBES
 #define LODESTAR_WITH_PROBES 0
+#endif
+#ifndef LODESTAR_RSRM_ROWS
+#define LODESTAR_RSRM_ROWS 1
 #endif
 #ifndef LODESTAR_WITH_HOST_VISIBILITY
 #define LODESTAR_WITH_HOST_VISIBILITY 0
@@ -88,6 +92,10 @@ vec3 lodestar_host_rsrmGradient(float u2, int layer) {
     return root * root;
 }
 
+#if LODESTAR_RSRM_ROWS
+vec4 lodestar_host_rsrmOctaves(int index) { return lodestar_mapOctaves[index]; }
+#endif
+
 #if LODESTAR_WITH_HOST_VISIBILITY
 /// How much of a light the host's shadows let through, [0, 1]; below 0: it casts none there, and light
 /// probes hold it back. @param light its place in the plan
@@ -108,6 +116,15 @@ LodestarRsrm lodestar_lightMap(int light) {
     map.firstOctave = lodestar_mapRows.x;
     map.rowsPerOctave = lodestar_mapRows.y;
     return map;
+}
+
+/// The row of an exponent, in every map the same.
+float lodestar_mapRow(float exponent) {
+#if LODESTAR_RSRM_ROWS
+    return lodestar_rsrmOwnRow(lodestar_lightMap(0), exponent);
+#else
+    return lodestar_rsrmRow(lodestar_lightMap(0), exponent);
+#endif
 }
 
 bool lodestar_isSky(int light) {
@@ -134,16 +151,17 @@ vec3 lodestar_lightsReflected(LodestarSurface here, LodestarShares shares) {
     LodestarLookup lookup = lodestar_lookup(here.normal, here.view, here.exponent);
     vec3 lambert = vec3(0.0);
     vec3 glossy = vec3(0.0);
+    float row = lodestar_mapRow(lookup.exponent);
     for (int i = 0; i < int(lodestar_counts.x); ++i) {
         LodestarRsrm map = lodestar_lightMap(i);
         float visible = lodestar_lightShare(i, map.axis, shares);
         lambert += visible * lodestar_rsrmLambert(map, here.normal);
         if (lodestar_isSky(i)) {
-            glossy += visible * lodestar_rsrm(map, lookup.direction, lodestar_rsrmRow(map, lookup.exponent));
+            glossy += visible * lodestar_rsrm(map, lookup.direction, row);
         } else {
             LodestarSunLookup sun = lodestar_sunLookup(here.normal, here.view, here.exponent, lookup.direction,
                                                        lookup.exponent, map.axis, lodestar_spreads[i / 4][i % 4]);
-            glossy += visible * lodestar_rsrmAt(map, sun.halfChord, lodestar_rsrmRow(map, sun.exponent));
+            glossy += visible * lodestar_rsrmAt(map, sun.halfChord, lodestar_mapRow(sun.exponent));
         }
     }
     return lodestar_reflected(here, lambert, glossy);

@@ -7,6 +7,7 @@
 #define LODESTAR_PLUGIN_UNIFORMS_GLSL
 
 #define LODESTAR_MAX_LIGHTS_SHOWN 32
+#define LODESTAR_MAP_ROW_VECTORS 6
 
 #ifdef __cplusplus
 #include <glm/vec4.hpp>
@@ -29,6 +30,7 @@ LODESTAR_UNIFORM vec4 lodestar_mapSize; ///< columns, rows, exponents of the fir
 LODESTAR_UNIFORM vec4 lodestar_mapRows; ///< first octave, rows an octave, columns of the two lines
 LODESTAR_UNIFORM vec4 lodestar_axes[LODESTAR_MAX_LIGHTS_SHOWN]; ///< xyz unit, w layer
 LODESTAR_UNIFORM vec4 lodestar_spreads[LODESTAR_MAX_LIGHTS_SHOWN / 4]; ///< how wide each is, four a vector
+LODESTAR_UNIFORM vec4 lodestar_mapOctaves[LODESTAR_MAP_ROW_VECTORS]; ///< log2(s + 1) of the rows, four each
 
 #ifdef __cplusplus
 };

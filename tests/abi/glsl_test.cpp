@@ -116,7 +116,7 @@ TEST_F(AbiGlsl, AllLightingCompiles) {
     int variants = 0;
     for (const std::uint32_t version : {330u, 410u, 450u, 300u}) {
         for (const std::uint32_t block : {0u, 1u}) {
-            for (int set = 0; set < 48; ++set) {
+            for (int set = 0; set < 96; ++set) {
                 const LodestarDialect dialect{
                     sizeof dialect,
                     version,
@@ -132,7 +132,8 @@ TEST_F(AbiGlsl, AllLightingCompiles) {
                 const std::string features =
                     define("LODESTAR_WITH_ENVIRONMENT", 1) + define("LODESTAR_WITH_LIGHTS", 2) +
                     define("LODESTAR_RSRM_MIRROR", 4) + define("LODESTAR_WITH_HOST_VISIBILITY", 8) +
-                    "#define LODESTAR_WITH_PROBES " + std::to_string(set / 16) + "\n";
+                    define("LODESTAR_RSRM_ROWS", 16) + "#define LODESTAR_WITH_PROBES " +
+                    std::to_string(set / 32) + "\n";
                 SCOPED_TRACE(std::to_string(version) + " block " + std::to_string(block) +
                              " features " + std::to_string(set));
                 glDeleteShader(
@@ -141,7 +142,7 @@ TEST_F(AbiGlsl, AllLightingCompiles) {
             }
         }
     }
-    EXPECT_EQ(variants, 384);
+    EXPECT_EQ(variants, 768);
 }
 
 // What uniform_info says is what the driver says.
@@ -183,7 +184,7 @@ TEST_F(AbiGlsl, UniformsAreWhereTheyAreSaidToBe) {
                 bytes = info.offset + 16 * info.count;
             }
         }
-        EXPECT_EQ(index, 11u);
+        EXPECT_EQ(index, 12u);
         if (block != 0) {
             GLint size = 0;
             glGetActiveUniformBlockiv(program, glGetUniformBlockIndex(program, "LodestarLighting"),

@@ -99,6 +99,62 @@ TEST_F(Abi, ADocumentLightsAsItsReaderSays) {
     EXPECT_EQ(api.document_apply(context, document), LODESTAR_E_ARG);
 }
 
+TEST_F(Abi, ADocumentsRowsAreItsMaps) {
+    const std::string rows = R"({"lodestar": 1, "rsrm": {"exponents": [1, 6, 40, 900]}, )";
+    const std::string text = rows + clearSky().substr(clearSky().find("\"lights\""));
+    LodestarDocument document = 0, usual = 0;
+    ASSERT_EQ(api.document_load(context, text.data(), text.size(), &document), LODESTAR_OK)
+        << api.last_error(context);
+    LodestarMapLayout layout{};
+    layout.struct_size = sizeof layout;
+    ASSERT_EQ(api.context_map_layout(context, &layout), LODESTAR_OK);
+    EXPECT_EQ(layout.rows, 24u) << "nothing is applied yet";
+    EXPECT_EQ(layout.own_rows, 0u);
+    ASSERT_EQ(api.document_apply(context, document), LODESTAR_OK);
+    ASSERT_EQ(api.context_map_layout(context, &layout), LODESTAR_OK);
+    EXPECT_EQ(layout.rows, 4u);
+    EXPECT_EQ(layout.own_rows, 1u);
+    EXPECT_EQ(layout.least_exponent, 1.0f);
+    EXPECT_EQ(layout.greatest_exponent, 900.0f);
+    EXPECT_FLOAT_EQ(layout.octaves[1], std::log2(7.0f));
+    EXPECT_FLOAT_EQ(layout.octaves[23], std::log2(901.0f)) << "the last row's on to the end";
+    core::Tally warnings;
+    const auto opened = document::parseDocument(text, warnings);
+    lighting::DayLookup own(*document::dayLights(*opened, warnings), document::mapLayout(*opened));
+    lighting::DayLookup byOthers(*document::dayLights(*opened, warnings), lighting::kRsrm);
+    ASSERT_EQ(api.set_hour(context, 12.0), LODESTAR_OK);
+    const double d[] = {0.3, 0.8, 0.2};
+    const glm::dvec3 unit = glm::normalize(glm::dvec3(d[0], d[1], d[2]));
+    double apart = 0.0;
+    for (const double exponent : {3.0, 15.0, 200.0, 2000.0}) {
+        double got[3] = {};
+        ASSERT_EQ(api.radiance(context, d, exponent, got), LODESTAR_OK);
+        const double expected = own.lookup(12.0, unit, exponent).radiance.g;
+        EXPECT_NEAR(got[1], expected, 1e-5 * expected) << exponent;
+        apart =
+            std::max(apart, std::abs(byOthers.lookup(12.0, unit, exponent).radiance.g - expected) /
+                                expected);
+    }
+    EXPECT_GT(apart, 1e-3) << "other rows would be seen";
+    // Lights that are made behind it have its rows; another document has its own.
+    Sun sun;
+    LodestarLight light = 0;
+    ASSERT_EQ(api.light_create(context, &sun.desc, &light), LODESTAR_OK);
+    std::size_t size = 0;
+    EXPECT_EQ(api.light_texels(context, light, LODESTAR_TEXELS_MAP, nullptr, &size), LODESTAR_MORE);
+    EXPECT_EQ(size, 4u * 170u * 4u);
+    const std::string clear = clearSky();
+    ASSERT_EQ(api.document_load(context, clear.data(), clear.size(), &usual), LODESTAR_OK);
+    ASSERT_EQ(api.document_apply(context, usual), LODESTAR_OK);
+    ASSERT_EQ(api.context_map_layout(context, &layout), LODESTAR_OK);
+    EXPECT_EQ(layout.own_rows, 0u);
+    layout.struct_size = 0;
+    EXPECT_EQ(api.context_map_layout(context, &layout), LODESTAR_E_ABI);
+    const std::string bad = R"({"lodestar": 1, "rsrm": {"exponents": [1]}, "lights": []})";
+    EXPECT_EQ(api.document_load(context, bad.data(), bad.size(), &usual), LODESTAR_E_DOCUMENT);
+    EXPECT_NE(std::string(api.last_error(context)).find("/rsrm/exponents"), std::string::npos);
+}
+
 TEST_F(Abi, ALightsTexelsAndState) {
     Sun sun;
     LodestarLight light = 0;

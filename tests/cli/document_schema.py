@@ -36,6 +36,7 @@ FULL = {
                  "interpolation": "constant", "stops": [
                      {"at": 0, "color": [1, 1, 1], "ev": 15.5},
                      {"at": 0.27, "color": [0, 0, 0]}]}}]}],
+    "rsrm": {"exponents": [1, 40, 300]},
     "materials": {"gold": {"exponent": 64, "f0": [1, 0.8, 0.3]},
                   "#2": {"exponent": "mirror", "diffuse": [0, 0, 0], "specular": "mip",
                          "tolerance": 0.1}},
@@ -59,6 +60,8 @@ HUGE = "nor that the squares of its parts are doubles"
 DIFFERENCES = [
     ("/capture/near", 91, FAR), ("/capture/near", 181, FAR), ("/capture/near", 367, FAR),
     ("/capture/near", 1e7, FAR), ("/capture/near", 2e7, FAR),
+    ("/rsrm/exponents/0", 91, FAR), ("/rsrm/exponents/0", 181, FAR), ("/rsrm/exponents/0", 367, FAR),
+    ("/rsrm/exponents/1", 367, FAR), ("/rsrm/exponents/2", 2, FAR),
     ("/path/north", [0, 0, 0], NORTH),
     ("/path/north/2", 0, NORTH),
     ("/path/north/0", 1e300, HUGE),

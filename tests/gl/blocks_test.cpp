@@ -50,6 +50,7 @@ gl::Defines everything(int specular, int diffuse, bool on) {
                              "LODESTAR_RSRM_LIGHTS",
                              "LODESTAR_RSRM_LAYOUT",
                              "LODESTAR_RSRM_MIRROR",
+                             "LODESTAR_RSRM_ROWS",
                              "LODESTAR_SHADOWS"}) {
         defines.emplace_back(name, on ? "1" : "0");
     }
@@ -98,6 +99,7 @@ TEST_F(Blocks, OffsetsAreTheDrivers) {
                             LODESTAR_FIELD(LodestarRsrmLights, rsrmScale),
                             LODESTAR_FIELD(LodestarRsrmLights, shadowFromWorld),
                             LODESTAR_FIELD(LodestarRsrmLights, shadowTexel),
+                            LODESTAR_FIELD(LodestarRsrmLights, rsrmOctaves),
                             LODESTAR_FIELD(LodestarMaterial, baseColor),
                             LODESTAR_FIELD(LodestarMaterial, emissive),
                             LODESTAR_FIELD(LodestarMaterial, surface),

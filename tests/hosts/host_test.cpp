@@ -112,6 +112,17 @@ TEST(Host, ADocumentsMaterialsStandOverTheFiles) {
     EXPECT_FALSE(passes(byHost(folder, scene, day(plain), "9"), own, "without them"));
 }
 
+TEST(Host, ADocumentsRowsAreItsMaps) {
+    const TemporaryFolder folder, plain;
+    const std::string scene = spheres(folder, 2.2);
+    // Few rows, far apart, and the polished sphere beyond the last: a host that read them as others
+    // would be seen.
+    const std::string lighting = day(folder, R"("rsrm": {"exponents": [2, 9, 150]}, )");
+    const core::Image own = byUs(folder, scene, lighting, "9");
+    EXPECT_TRUE(passes(byHost(folder, scene, lighting, "9"), own, "own rows"));
+    EXPECT_FALSE(passes(byHost(folder, scene, day(plain), "9"), own, "the default rows"));
+}
+
 TEST(Host, WhatIsNotShownIsSaid) {
     const TemporaryFolder folder;
     GltfBuilder file;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The C++ side of the rows, included once a precision.
+#define LODESTAR_RSRM_ROWS 1
 #include "lodestar/cube.glsl"
 #include "lodestar/display.glsl"
 #include "lodestar/lobes.glsl"

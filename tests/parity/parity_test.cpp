@@ -53,8 +53,9 @@ protected:
     /// The row in GLSL of a version.
     std::vector<glm::vec4> onGpu(const ParityRow& row, int version,
                                  const std::vector<GlslCase>& cases) {
-        auto text = gl::assembleShader(row.file, version,
-                                       {{"LODESTAR_SPECULAR", std::to_string(row.specular)}});
+        auto text = gl::assembleShader(
+            row.file, version,
+            {{"LODESTAR_SPECULAR", std::to_string(row.specular)}, {"LODESTAR_RSRM_ROWS", "1"}});
         if (!text) {
             ADD_FAILURE() << text.error().message();
             return {};

@@ -15,6 +15,12 @@ LODESTAR_FN vec3 lodestar_host_rsrmGradient(Real u2, int layer) {
     return vec3(100.0f * u2, 50.0f, Real(layer));
 }
 
+/// Rows ever farther apart, 1 + r / 4 + r^2 / 128: floats hold them exactly.
+LODESTAR_FN vec4 lodestar_host_rsrmOctaves(int index) {
+    vec4 row = vec4(Real(4.0f) * Real(index)) + vec4(0.0f, 1.0f, 2.0f, 3.0f);
+    return vec4(1.0f) + Real(0.25f) * row + Real(0.0078125f) * row * row;
+}
+
 /// Axis and layout; columns, rows, least and greatest exponent; y: first octave, z: rows an octave.
 LODESTAR_FN LodestarRsrm parity_rsrm(vec4 axis, vec4 size, vec4 octaves) {
     LodestarRsrm map;

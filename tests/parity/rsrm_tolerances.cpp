@@ -78,6 +78,20 @@ Tolerance rsrmRowTolerance(const GlslCase& p, const glm::dvec4&, int) {
     return {rowError(p) + mirror, 0.0, 0.0, 0.0};
 }
 
+// s + 1 by u of itself and its logarithm, over the step from row to row, of which at a row the one
+// below may be meant; differences and a quotient in [0, 1] by 5 u; two sums of at most `rows`.
+Tolerance rsrmOwnRowTolerance(const GlslCase& p, const glm::dvec4& v, int) {
+    const double s = shader_double::lodestar_repairExponent(static_cast<double>(p[0].w));
+    const double argument =
+        std::clamp(s, static_cast<double>(p[2].z), static_cast<double>(p[2].w)) + 1.0;
+    const double below = std::max(std::floor(v.x) - 1.0, 0.0);
+    const double step = 0.25 + (2.0 * below + 1.0) / 128.0; // of rsrm_helpers.glsl's octaves
+    const double octave = log2Error(argument) + u / std::log(2.0);
+    return {octave / step + 5.0 * u + 2.0 * u * static_cast<double>(p[2].y) +
+                shareError(s, static_cast<double>(p[2].w)),
+            0.0, 0.0, 0.0};
+}
+
 Tolerance rsrmMirrorShareTolerance(const GlslCase& p, const glm::dvec4&, int) {
     return {shareError(static_cast<double>(p[5].x), static_cast<double>(p[2].w)), 0.0, 0.0, 0.0};
 }

@@ -117,8 +117,10 @@ TEST_F(DualTextGl, EachFileCompilesAlone) {
                 continue;
             }
             for (int specular = 0; specular < kSpecularVariants; ++specular) {
-                auto text = gl::assembleShader("lodestar/" + file, version,
-                                               {{"LODESTAR_SPECULAR", std::to_string(specular)}});
+                auto text =
+                    gl::assembleShader("lodestar/" + file, version,
+                                       {{"LODESTAR_SPECULAR", std::to_string(specular)},
+                                        {"LODESTAR_RSRM_ROWS", std::to_string(specular % 2)}});
                 ASSERT_TRUE(text.ok()) << text.error().message();
                 if (text->find("lodestar_host_cube(int") != std::string::npos) {
                     *text +=
@@ -126,11 +128,11 @@ TEST_F(DualTextGl, EachFileCompilesAlone) {
                         "vec3 lodestar_host_irradiance(int s, vec3 n) { return n; }\n";
                 }
                 if (text->find("lodestar_host_rsrm(Real") != std::string::npos) {
-                    *text +=
-                        "vec4 lodestar_host_rsrm(float c, float r, int l) {"
-                        " return vec4(c, r, l, 1.0); }\n"
-                        "vec3 lodestar_host_rsrmLambert(float u, int l) { return vec3(u); }\n"
-                        "vec3 lodestar_host_rsrmGradient(float u, int l) { return vec3(u); }\n";
+                    *text += "vec4 lodestar_host_rsrm(float c, float r, int l) {"
+                             " return vec4(c, r, l, 1.0); }\n"
+                             "vec3 lodestar_host_rsrmLambert(float u, int l) { return vec3(u); }\n"
+                             "vec3 lodestar_host_rsrmGradient(float u, int l) { return vec3(u); }\n"
+                             "vec4 lodestar_host_rsrmOctaves(int i) { return vec4(i); }\n";
                 }
                 const auto function =
                     GlslFunction::make(device(), version, *text, "vec4(LODESTAR_PI) + p0");

@@ -78,6 +78,7 @@ ToleranceFunction environmentTolerance;
 ToleranceFunction rsrmRefinedColumnTolerance;
 ToleranceFunction rsrmColumnTolerance;
 ToleranceFunction rsrmRowTolerance;
+ToleranceFunction rsrmOwnRowTolerance;
 ToleranceFunction rsrmMirrorShareTolerance;
 ToleranceFunction rsrmAtTolerance;
 ToleranceFunction rsrmTolerance;

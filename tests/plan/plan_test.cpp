@@ -423,6 +423,24 @@ TEST(Plan, MirrorsAloneReadTheGradients) {
     EXPECT_FALSE(has(plan(input).drawFeatures[1], Feature::RsrmMirror));
 }
 
+TEST(Plan, OwnRowsAreAFeatureOfWhatReadsMaps) {
+    DrawView unlit = ball();
+    unlit.lit = false;
+    DrawView sharp = ball();
+    sharp.sharpest = 300.0;
+    PlanInput input = underLights({sharp, unlit});
+    EXPECT_FALSE(has(plan(input).drawFeatures[0], Feature::RsrmRows));
+    input.rsrmRows = true;
+    input.rsrmGreatestExponent = 200.0;
+    const EffectPlan result = plan(input);
+    EXPECT_TRUE(has(result.drawFeatures[0], Feature::RsrmRows));
+    EXPECT_TRUE(has(result.drawFeatures[0], Feature::RsrmMirror)) << "beyond the last of them";
+    EXPECT_FALSE(has(result.drawFeatures[1], Feature::RsrmRows)) << "it takes no light";
+    EXPECT_EQ(featureNames(bit(Feature::RsrmRows)), std::vector<std::string>{"rsrm-rows"});
+    input.rsrmLights.clear();
+    EXPECT_FALSE(has(plan(input).drawFeatures[0], Feature::RsrmRows)) << "there are no maps";
+}
+
 TEST(Plan, ASunThatDoesNotShineCostsNothing) {
     PlanInput input = underLights({ball()});
     input.rsrmLights[1].shines = false;

@@ -70,8 +70,6 @@ std::vector<float> unpacked(const std::vector<unsigned char>& bytes) {
 Lights::Lights(const LodestarApi& api, LodestarContext* context, osg::StateSet& state,
                int firstUnit)
     : api_(api), context_(context), state_(&state), firstUnit_(firstUnit) {
-    layout_.struct_size = sizeof layout_;
-    api_.map_layout(&layout_);
     // What a draw thread reads is left alone by the next update until it is drawn.
     state.setDataVariance(osg::Object::DYNAMIC);
     int unit = firstUnit;
@@ -101,10 +99,13 @@ LodestarStatus Lights::layOut() {
     if (count > 0) {
         status = api_.lights(context_, handles.data(), &count);
     }
+    LodestarMapLayout layout{};
+    layout.struct_size = sizeof layout;
+    status = status < 0 ? status : api_.context_map_layout(context_, &layout);
     if (status < 0) {
         return status;
     }
-    const bool same = handles.size() == layers_.size() &&
+    const bool same = layout.rows == rows_ && handles.size() == layers_.size() &&
                       std::equal(handles.begin(), handles.end(), layers_.begin(),
                                  [](LodestarLight a, const Layer& b) { return a == b.light; });
     if (same) {
@@ -114,9 +115,9 @@ LodestarStatus Lights::layOut() {
     for (const LodestarLight handle : handles) {
         layers_.push_back({handle, 0});
     }
-    const std::uint32_t sizes[3][2] = {{layout_.columns, layout_.rows},
-                                       {layout_.lambert_columns, 1},
-                                       {layout_.gradient_columns, 1}};
+    rows_ = layout.rows;
+    const std::uint32_t sizes[3][2] = {
+        {layout.columns, layout.rows}, {layout.lambert_columns, 1}, {layout.gradient_columns, 1}};
     for (int texels = 0; texels < 3 && !layers_.empty(); ++texels) {
         arrays_[texels] = makeArray(sizes[texels][0], sizes[texels][1], layers_.size());
         state_->setTextureAttribute(static_cast<unsigned>(firstUnit_ + texels), arrays_[texels]);

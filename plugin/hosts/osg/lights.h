@@ -56,8 +56,8 @@ private:
     osg::ref_ptr<osg::StateSet> state_;
     int firstUnit_;
     LodestarPlan plan_ = 0;
-    LodestarMapLayout layout_{};
     std::vector<Layer> layers_;
+    std::uint32_t rows_ = 0; ///< of the arrays' maps
     osg::ref_ptr<osg::Texture2DArray> arrays_[3];
     Cube cubes_[2];
     struct Value {

@@ -202,7 +202,7 @@ enum {
     LODESTAR_TEXELS_IRRADIANCE = 4   /* of an environment: a cube of irradiance over pi */
 };
 
-/* The same for all lights: sizes, and the members of GLSL's LodestarRsrm. */
+/* The same for all lights of a context: sizes, and the members of GLSL's LodestarRsrm. */
 typedef struct LodestarMapLayout {
     uint32_t struct_size;
     int32_t layout_name; /* LodestarRsrm.layoutName */
@@ -210,6 +210,10 @@ typedef struct LodestarMapLayout {
     uint32_t lambert_columns, gradient_columns;
     float least_exponent, greatest_exponent;
     float first_octave, rows_per_octave;
+    /* 1: a document has given the rows one by one, 2 to 24 of them: lodestar_rsrmOwnRow finds them,
+     * and first_octave and rows_per_octave say nothing. */
+    uint32_t own_rows, reserved;
+    float octaves[24]; /* log2(s + 1) of the rows, four a vector of lodestar_host_rsrmOctaves */
 } LodestarMapLayout;
 
 /* A material without textures, in glTF's quantities or, where `given` has a bit, in Blinn-Phong's.
@@ -305,7 +309,8 @@ typedef struct LodestarFaceJob {
 enum {
     LODESTAR_FEATURE_ENVIRONMENT = 1, /* LODESTAR_WITH_ENVIRONMENT */
     LODESTAR_FEATURE_LIGHTS = 2,      /* LODESTAR_WITH_LIGHTS */
-    LODESTAR_FEATURE_MIRROR = 4       /* LODESTAR_RSRM_MIRROR */
+    LODESTAR_FEATURE_MIRROR = 4,      /* LODESTAR_RSRM_MIRROR */
+    LODESTAR_FEATURE_ROWS = 32        /* LODESTAR_RSRM_ROWS */
 };
 
 /* Work, planned or done. */
@@ -383,7 +388,8 @@ typedef struct LodestarApi {
     /* [main] Reads a lighting document (*.lodestar.json). Nothing of the context changes yet. */
     LodestarStatus (*document_load)(LodestarContext*, const char* utf8, size_t size,
                                     LodestarDocument*);
-    /* [main] Replaces all lights by the document's. */
+    /* [main] Replaces all lights by the document's; lights made from then on have its maps' rows.
+     */
     LodestarStatus (*document_apply)(LodestarContext*, LodestarDocument);
     LodestarStatus (*document_destroy)(LodestarContext*, LodestarDocument);
 
@@ -393,7 +399,7 @@ typedef struct LodestarApi {
     /* [main] A light's texels at the hour: a two-call query in bytes. */
     LodestarStatus (*light_texels)(LodestarContext*, LodestarLight, int32_t which, void* buffer,
                                    size_t* size);
-    /* [any] */
+    /* [any] Without a document's own rows: a new context's. context_map_layout has those of one. */
     LodestarStatus (*map_layout)(LodestarMapLayout*);
 
     /* [main] What a shader would get of the environment and the lights: radiance about a direction
@@ -470,6 +476,8 @@ typedef struct LodestarApi {
     /* [any] What "plugin/lighting.glsl" reads, from index 0 on; LODESTAR_E_ARG: there is no more.
      */
     LodestarStatus (*uniform_info)(uint32_t index, LodestarUniform*);
+    /* [main] How the lights' maps are laid out: document_apply may change it. */
+    LodestarStatus (*context_map_layout)(LodestarContext*, LodestarMapLayout*);
 } LodestarApi;
 
 /* [any] The only symbol. Fills the host's table as far as struct_size reaches.

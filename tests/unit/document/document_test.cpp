@@ -37,6 +37,7 @@ const std::string kFull = R"({
     {"kind": "sun", "path": {"latitude": 47.5, "dayOfYear": 172, "north": [0, 0, -1], "city": "?"},
      "visibility": false, "keys": [{"hour": 12, "gradient": {"interpolation": "constant",
        "stops": [{"at": 0, "color": [1, 1, 1], "ev": 15.5}, {"at": 0.27, "color": [0, 0, 0]}]}}]}],
+  "rsrm": {"exponents": [1, 8.5, 64, 16384], "why": "satin"},
   "probes": [{"name": "hall", "position": [1, 2, 3], "mood": "warm", "source": "hall.exr",
      "capture": {"resolution": 64, "near": 0.25, "far": 50, "layers": 5, "by": "me"},
      "update": {"every": 4, "why": "slow"}, "relight": "ratio", "priority": 2, "exterior": false, "tint": [1, 0.5, 0.25],
@@ -83,6 +84,11 @@ TEST(Document, ReadsWhatItSays) {
     EXPECT_EQ(sun.path->dayOfYear, 172);
     EXPECT_TRUE(std::isinf(*document->materials.at("#2").exponent));
     EXPECT_EQ(*document->materials.at("#2").specular, "mip");
+    EXPECT_EQ(document->rsrm->exponents, (std::vector<double>{1.0, 8.5, 64.0, 16384.0}));
+    const lighting::RsrmLayout maps = mapLayout(*document);
+    EXPECT_EQ(lighting::rowExponents(maps), document->rsrm->exponents);
+    EXPECT_EQ(lighting::texelBytes(maps), 4u * 170u * 4u) << "fewer rows are a smaller map";
+    EXPECT_EQ(mapLayout(Document()), lighting::kRsrm);
     EXPECT_TRUE(warnings.counts().empty());
     const auto lights = dayLights(*document, warnings);
     ASSERT_TRUE(lights.ok());
@@ -150,6 +156,18 @@ TEST(Document, RefusesWithThePointer) {
         {"/lights/1/path/dayOfYear", 1.5, nullptr},
         {"/lights/1/path/north", {0, 1, 0}, nullptr},
         {"/lights/1/visibility", "yes", nullptr},
+        {"/rsrm", 1, nullptr},
+        {"/rsrm/exponents", 8, nullptr},
+        {"/rsrm/exponents", json::array(), nullptr},
+        {"/rsrm/exponents", {8}, nullptr},
+        {"/rsrm/exponents", std::vector<double>(25, 8.0), nullptr},
+        {"/rsrm/exponents", {0.5, 8}, "/rsrm/exponents/0"},
+        {"/rsrm/exponents", {1, 16385}, "/rsrm/exponents/1"},
+        {"/rsrm/exponents", {1, 8, 8}, "/rsrm/exponents/2"},
+        {"/rsrm/exponents", {1, 8, 8.07}, "/rsrm/exponents/2"},
+        {"/rsrm/exponents", {64, 8}, "/rsrm/exponents/1"},
+        {"/rsrm/exponents/1", "sharp", nullptr},
+        {"/rsrm/exponents/1", nullptr, nullptr},
         {"/probes", 1, nullptr},
         {"/probes/0", 1, nullptr},
         {"/probes/0/name", 1, nullptr},
