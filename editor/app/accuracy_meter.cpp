@@ -232,7 +232,7 @@ private:
                          places * (kEvenOfRow + kAtLightOfRow * drawn.size());
         }
         const auto advance = [&work] { return step(work); };
-        lighting::DayLookup fitted(subject.lights, lighting::kRsrm, kernels_);
+        lighting::DayLookup fitted(subject.lights, subject.maps, kernels_);
         chooseWorst(work, [&](const Worn&, double exponent) {
             std::optional<double> error;
             measureMaps(work, fitted, truthOf(reference, drawn, kEven, exponent, advance), exponent,
@@ -242,9 +242,9 @@ private:
         const double exponent = exponentOf(work);
         const Truth truth = truthOf(reference, drawn, kEven, exponent, advance);
         for (std::size_t line = 0; line < work.view.lines.size() && !work.cancelled; ++line) {
-            const lighting::RsrmLayout& layout = *lighting::rsrmLayoutNamed(kLayouts[line]);
-            (void)kernels_->get(layout, lighting::LightKind::Sky); // for the slices
-            lighting::DayLookup maps(subject.lights, layout, kernels_);
+            const lighting::RsrmLayout& named = *lighting::rsrmLayoutNamed(kLayouts[line]);
+            (void)kernels_->get(named, lighting::LightKind::Sky); // for the slices
+            lighting::DayLookup maps(subject.lights, line == 0 ? subject.maps : named, kernels_);
             measureMaps(work, maps, truth, exponent,
                         [&](const lighting::Accuracy& accuracy, int fetches) {
                             setLine(work, line, accuracy, fetches);
@@ -364,11 +364,11 @@ void AccuracyMeter::measure(Subject subject) {
         for (const char* name : kLayouts) {
             view.lines.push_back({.name = name});
         }
-        for (int row = 0; subject.rows && row < lighting::kRsrm.rows; ++row) {
-            view.rows.push_back({.exponent = lighting::rowExponent(lighting::kRsrm, row),
-                                 .between = row + 1 < lighting::kRsrm.rows
-                                                ? lighting::rowExponent(lighting::kRsrm, row + 0.5)
-                                                : 0.0});
+        const lighting::RsrmLayout& maps = subject.maps;
+        for (int row = 0; subject.rows && row < maps.rows; ++row) {
+            view.rows.push_back(
+                {.exponent = lighting::rowExponent(maps, row),
+                 .between = row + 1 < maps.rows ? lighting::rowExponent(maps, row + 0.5) : 0.0});
         }
     }
     for (const Worn& worn : subject.materials) {

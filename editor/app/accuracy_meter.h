@@ -36,8 +36,9 @@ public:
         std::shared_ptr<const lighting::Cubemap> environment; ///< null: skies and suns alone shine
         std::vector<lighting::DayLight> lights;
         double hour = 0.0;
-        std::uint64_t light = 0; ///< another number for another light
-        bool rows = false;       ///< the maps' rows too
+        std::uint64_t light = 0;                     ///< another number for another light
+        bool rows = false;                           ///< the maps' rows too
+        lighting::RsrmLayout maps = lighting::kRsrm; ///< what the document has for `rsrm`
     };
 
     AccuracyMeter();

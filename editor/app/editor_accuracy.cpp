@@ -45,6 +45,7 @@ void Editor::syncAccuracy() {
             subject.hour = view.hour;
             subject.light = model_.revisions().lights;
             subject.rows = view.mapRows;
+            subject.maps = document::mapLayout(model_.document());
             core::Tally none;
             if (auto lights = document::dayLights(model_.document(), none)) {
                 subject.lights = std::move(*lights);

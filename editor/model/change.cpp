@@ -202,12 +202,17 @@ std::size_t bytesOf(const Splice<Value, Names>& splice) {
 
 bool Change::empty() const {
     return !environment && materials.empty() && probes.empty() && lights.empty() &&
-           inLights.empty() && inKeys.empty() && !unknown;
+           inLights.empty() && inKeys.empty() && !rsrm && !unknown;
 }
 
 std::size_t Change::bytes() const {
     std::size_t sum = sizeof *this + bytesOf(probes) + bytesOf(lights);
     sum += materials.size() * sizeof(MaterialChange);
+    for (const auto* side : {rsrm ? &rsrm->before : nullptr, rsrm ? &rsrm->after : nullptr}) {
+        if (side != nullptr && *side) {
+            sum += (*side)->exponents.size() * sizeof(double) + (*side)->unknown.size();
+        }
+    }
     for (const LightChange& each : inLights) {
         sum += sizeof each + bytesOf(each.keys);
     }
@@ -222,6 +227,7 @@ Change difference(const State& before, const State& after) {
     const document::Document& was = before.document;
     const document::Document& is = after.document;
     change.environment = swapOf(was.environment, is.environment);
+    change.rsrm = swapOf(was.rsrm, is.rsrm);
     change.unknown = swapOf(was.unknown, is.unknown);
     change.next = {before.ids.next, after.ids.next};
     change.probes = spliceOf(was.probes, before.ids.probes, is.probes, after.ids.probes);
@@ -240,6 +246,9 @@ void apply(const Change& change, Direction direction, State& state) {
     document::Document& document = state.document;
     if (change.environment) {
         document.environment = sideOf(*change.environment, direction);
+    }
+    if (change.rsrm) {
+        document.rsrm = sideOf(*change.rsrm, direction);
     }
     if (change.unknown) {
         document.unknown = sideOf(*change.unknown, direction);

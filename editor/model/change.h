@@ -57,6 +57,7 @@ struct Change {
     Splice<document::Light, LightIds> lights;
     std::vector<LightChange> inLights;
     std::vector<KeyChange> inKeys;
+    std::optional<Swap<std::optional<document::Rsrm>>> rsrm;
     std::optional<Swap<document::Unknown>> unknown;
     Swap<std::uint64_t> next{0, 0}; ///< Identities::next
 

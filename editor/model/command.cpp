@@ -62,6 +62,10 @@ struct Namer {
     std::string_view operator()(const RemoveProbes& c) const {
         return c.probes.size() > 1 ? "Remove probes" : "Remove probe";
     }
+    std::string_view operator()(const SetMapRow&) const { return "Move map row"; }
+    std::string_view operator()(const SetMapRows& c) const {
+        return c.exponents.empty() ? "Reset map rows" : "Set map rows";
+    }
     std::string_view operator()(const ReplaceDocument&) const { return "Replace document"; }
 };
 

@@ -21,7 +21,8 @@ using Command =
                  DistributeStops, SimplifyStops, SetGradient, SetInterpolation, SetSpace,
                  BrushStroke, AddKey, InsertKey, MoveKey, CopyKey, DeleteKey, SetKey, AddLight,
                  RemoveLight, SetLight, SetLights, SetEnvironment, RemoveEnvironment, SetMaterials,
-                 ResetMaterials, AddProbe, SetProbe, RemoveProbes, ReplaceDocument>;
+                 ResetMaterials, AddProbe, SetProbe, RemoveProbes, SetMapRow, SetMapRows,
+                 ReplaceDocument>;
 
 /// What undo says of a command: "Move stop".
 [[nodiscard]] std::string_view nameOf(const Command& command);

@@ -152,6 +152,14 @@ void describe(T& text, RemoveProbes& c) {
     text.command("RemoveProbes")("probes", c.probes);
 }
 template <class T>
+void describe(T& text, SetMapRow& c) {
+    text.command("SetMapRow")("row", c.row)("exponent", c.exponent);
+}
+template <class T>
+void describe(T& text, SetMapRows& c) {
+    text.command("SetMapRows")("exponents", c.exponents);
+}
+template <class T>
 void describe(T& text, ReplaceDocument& c) {
     text.command("ReplaceDocument")("document", c.document);
 }

@@ -236,8 +236,8 @@ void Model::note(const Change& change) {
     noteList(revisions_.environment, change.environment.has_value());
     noteList(revisions_.materials, !change.materials.empty());
     noteList(revisions_.probes, !change.probes.empty());
-    noteList(revisions_.lights,
-             !change.lights.empty() || !change.inLights.empty() || !change.inKeys.empty());
+    noteList(revisions_.lights, !change.lights.empty() || !change.inLights.empty() ||
+                                    !change.inKeys.empty() || change.rsrm.has_value());
 }
 
 void Model::selectCreated(const std::vector<Id>& created) {

@@ -32,6 +32,7 @@ struct Outcome {
 /// Numbers that grow with each change, undo and redo too; equal numbers, equal content.
 struct Revisions {
     std::uint64_t document = 0; ///< any change
+    /// The lights' own maps with them.
     std::uint64_t environment = 0, lights = 0, probes = 0, materials = 0;
 };
 

@@ -44,6 +44,8 @@ Performed performOn(State& state, const ResetMaterials& command);
 Performed performOn(State& state, const AddProbe& command);
 Performed performOn(State& state, const SetProbe& command);
 Performed performOn(State& state, const RemoveProbes& command);
+Performed performOn(State& state, const SetMapRow& command);
+Performed performOn(State& state, const SetMapRows& command);
 Performed performOn(State& state, const ReplaceDocument& command);
 
 /// A gradient, its stops' names, and what gives new ones.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Commands on the environment, materials and light probes of a document. Refused, and nothing
+// Commands on the environment, materials, light probes and maps of a document. Refused, and nothing
 // changed, where a number is NaN, infinite or out of its range, or an Id names nothing.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -66,6 +67,18 @@ struct SetProbe {
 
 struct RemoveProbes {
     std::vector<Id> probes;
+};
+
+/// Moves a row of the maps of skies and suns. The default rows become the document's own by it.
+/// Refused where it breaks lighting::faultOfRows.
+struct SetMapRow {
+    std::size_t row = 0; ///< of those that there are
+    double exponent = 0.0;
+};
+
+/// Gives the maps these rows; none: the default ones.
+struct SetMapRows {
+    std::vector<double> exponents; ///< Phong, as lighting::faultOfRows has them
 };
 
 /// Replaces the document: read again, recovered. Parts keep their names by place.

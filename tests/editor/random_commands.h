@@ -171,6 +171,16 @@ private:
         made.intensity = chance_.number(0.0, 4.0);
         return made;
     }
+    /// Most of them in order, a step too near now and then.
+    std::vector<double> rows() {
+        std::vector<double> made;
+        double exponent = chance_.number(0.9, 4.0);
+        for (std::size_t i = 0; i < chance_.below(26); ++i) {
+            made.push_back(exponent);
+            exponent *= chance_.number(1.009, 2.0);
+        }
+        return made;
+    }
     BrushStroke stroke() {
         BrushStroke made{key(),
                          {static_cast<BrushMode>(chance_.below(2)), chance_.number(0.01, 60.0),
@@ -291,6 +301,10 @@ private:
             return SetProbe{probes().front(), probe()};
         case 29:
             return RemoveProbes{probes()};
+        case 30:
+            return SetMapRow{chance_.below(26), chance_.number(0.5, 3000.0)};
+        case 31:
+            return SetMapRows{rows()};
         default:
             return ReplaceDocument{documentOf(kDocument)};
         }
