@@ -2,6 +2,9 @@
 #include "model/model.h"
 
 #include <utility>
+#include <variant>
+
+#include "model/rules.h"
 
 namespace lodestar::model {
 
@@ -64,6 +67,11 @@ core::Result<Outcome> Model::execute(const Command& command, MergeToken token) {
     auto created = perform(command, next);
     if (!created) {
         return created.error();
+    }
+    // What was too bright when it was read stays as it was written, and may be edited.
+    if (!std::holds_alternative<ReplaceDocument>(command) && tooBright(next.document) &&
+        !tooBright(base.document)) {
+        return core::refused("a radiance times its key's tint lies from 0 to 1e9");
     }
     if (replaces && next.document == state_.document && next.ids == state_.ids) {
         return Outcome{}; // a drag held still

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "model/ramp.h"
 #include "model/stop_commands.h"
@@ -213,6 +214,20 @@ core::Result<document::Light> checkedLight(document::Light light) {
 core::Result<document::Document> asRead(const document::Document& document) {
     core::Tally warnings; // what is mended when lighting reads it stays as written
     return document::parseDocument(document::writeDocument(document), warnings);
+}
+
+bool tooBright(const document::Document& document) {
+    for (const document::Light& light : document.lights) {
+        for (const document::Key& key : light.keys) {
+            const glm::dvec3 most = glm::dvec3(lighting::kMaxRadiance) / key.tint; // as lighting's
+            for (const document::Stop& stop : key.gradient.stops) {
+                if (glm::any(glm::greaterThan(lighting::radianceOf(stop.stop), most))) {
+                    return true;
+                }
+            }
+        }
+    }
+    return false;
 }
 
 core::Result<void> checkedSize(const document::Document& document) {

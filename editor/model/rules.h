@@ -43,6 +43,9 @@ namespace lodestar::model {
 /// finds. @errors InputRefused by document::parseDocument
 [[nodiscard]] core::Result<document::Document> asRead(const document::Document& document);
 
+/// Whether some stop's radiance times its key's tint lies above 1e9, where lighting lowers it.
+[[nodiscard]] bool tooBright(const document::Document& document);
+
 /// A document's text fits what is read again. @errors InputRefused: larger
 [[nodiscard]] core::Result<void> checkedSize(const document::Document& document);
 

@@ -6,8 +6,9 @@
 // outwards (a sky's from +90 down) by the rules of lighting::repaired.
 //
 // Every command is refused, and nothing changes, where a number is NaN or infinite, a colour is
-// negative, an ev lies outside [-64, 64], a radiance above 1e9, or an Id names nothing. Finite
-// angles are brought into their range; numbers too small for a normal double become 0.
+// negative, an ev lies outside [-64, 64], a radiance above 1e9, with its key's tint or without, or
+// an Id names nothing. Finite angles are brought into their range; numbers too small for a normal
+// double become 0.
 #pragma once
 
 #include <cstddef>

@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <imgui_internal.h>
 
 #include "ui/theme.h"
 
@@ -183,6 +184,13 @@ void elidedText(const ImVec4& color, const std::string& text, float room) {
     ImGui::TextColored(color, "%s", shown.c_str());
     if (shown.size() != text.size() && ImGui::IsItemHovered()) {
         ImGui::SetTooltip("%s", text.c_str());
+    }
+}
+
+void forgetLeftText() {
+    ImGuiContext& context = *ImGui::GetCurrentContext();
+    if (context.InputTextState.ID != context.ActiveId) {
+        context.InputTextState.ID = 0; // of no field
     }
 }
 

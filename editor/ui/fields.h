@@ -41,6 +41,10 @@ void continueRow(float width);
 [[nodiscard]] std::string elided(const std::string& text, float room);
 /// The same as an item, whose tooltip then has it whole.
 void elidedText(const ImVec4& color, const std::string& text, float room);
+/// Dear ImGui 1.86 keeps the undo of the last field of text for when it is entered again. What it
+/// is entered with is another text by then, beyond whose ends those steps reach: forgets them. To
+/// be called once a frame, before any field.
+void forgetLeftText();
 /// Begins a popup over all that waits for an answer, where it is open; ImGui::EndPopup ends it.
 [[nodiscard]] bool beginQuestion(const char* title);
 /// A button that says with a tooltip which key it has.

@@ -71,7 +71,8 @@ void Studio::mark(const std::string& name) {
 
 void Studio::mark(const std::string& name, const ImVec2& low, const ImVec2& high) {
     const ImGuiWindow& window = *ImGui::GetCurrentWindowRead();
-    marks[name] = {low, high, window.ClipRect.Min, window.ClipRect.Max, window.ScrollMax.y > 0.0f};
+    marks[name] = {
+        low, high, window.ClipRect.Min, window.ClipRect.Max, window.ScrollMax.y > 0.0f, window.ID};
 }
 
 model::Id Studio::chosenLight() const {

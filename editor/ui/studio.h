@@ -173,6 +173,7 @@ struct Mark {
     ImVec2 low, high;
     ImVec2 clipLow, clipHigh; ///< what its window shows
     bool scrolls = false;     ///< the window has more below or above
+    ImGuiID window = 0;       ///< that it was drawn in
     [[nodiscard]] ImVec2 center() const {
         return {0.5f * (low.x + high.x), 0.5f * (low.y + high.y)};
     }

@@ -92,6 +92,7 @@ Wishes Workspace::draw(model::Model& model, const Surroundings& surroundings,
         holder_ = studio.holder_;
     };
     try {
+        forgetLeftText();
         contents(Panels(*this, studio));
         photograph_.draw(studio);
         drawPrompts(studio);

@@ -104,6 +104,27 @@ TEST(Refusals, ValuesOutOfRange) {
         refusal(model, SetMaterials{{"gold"}, {}, {}, {}, std::string("magic"), {}}).empty());
 }
 
+TEST(Refusals, LightThatItsTintMakesTooBright) {
+    const char* const sentence = "a radiance times its key's tint lies from 0 to 1e9";
+    Model model = sampleModel();
+    document::Key bright = model.document().lights[0].keys[0];
+    bright.hour = 3.0;
+    bright.tint.b = 1e9;
+    bright.gradient.stops[2].stop.color.b = 1.5;
+    did(model, SetKey{keyId(model), glm::dvec3(1, 1, 1e9), {}}); // on blue of at most 0.57
+    EXPECT_EQ(refusal(model, SetStops{{stopId(model, 1)}, {}, glm::dvec3(0, 0, 2), {}}), sentence);
+    EXPECT_EQ(refusal(model, SetKey{keyId(model, 1), glm::dvec3(1e6), {}}), sentence); // of ev 14
+    EXPECT_EQ(refusal(model, InsertKey{model.ids().lights[0].id, bright}), sentence);
+    // What was read so stays as it was written: lighting lowers it, and it may be edited.
+    document::Document read = model.document();
+    read.lights[0].keys[0].tint = glm::dvec3(1e9);
+    read.lights[0].keys[0].gradient.stops[2].stop.color.b = 1.5;
+    did(model, ReplaceDocument{read});
+    did(model, MoveKey{keyId(model), 7.0});
+    did(model, SetKey{keyId(model), glm::dvec3(1), {}});
+    EXPECT_EQ(refusal(model, SetKey{keyId(model), glm::dvec3(1e9), {}}), sentence);
+}
+
 TEST(Refusals, NamesOfNothing) {
     Model model = sampleModel();
     const Id light = model.ids().lights[0].id;
