@@ -95,12 +95,13 @@ Wishes Workspace::draw(model::Model& model, const Surroundings& surroundings,
         forgetLeftText();
         contents(Panels(*this, studio));
         photograph_.draw(studio);
+        drawWork(studio);
+        drawHelp(studio);
+        // Questions last: beside one that appears no window may, in Dear ImGui 1.86.
         drawPrompts(studio);
         drawQuestion(studio);
         drawOutside(studio, asksOutside_);
         asksOutside_ = false;
-        drawWork(studio);
-        drawHelp(studio);
     } catch (...) { // an assertion of Dear ImGui's: what was said stays said
         keep();
         throw;

@@ -226,6 +226,35 @@ TEST(Session, EscapeIsTakenWhileAMenuGivesWayToAnother) {
     }
 }
 
+TEST(Session, AWindowAppearsInTheFrameOfAQuestion) {
+    // Dear ImGui 1.86 asserts where one does behind the question.
+    for (int frames = 0; frames < 24; ++frames) {
+        SCOPED_TRACE(frames);
+        model::Model model = begun();
+        const Surroundings around = spheres();
+        Workspace workspace;
+        Session session(Session::Drawing::None);
+        const auto frame = [&] {
+            session.frame(kWidth, kHeight, 1.0f, 1.0 / 60.0,
+                          [&] { (void)workspace.draw(model, around); });
+            EXPECT_EQ(session.failure(), "");
+        };
+        frame();
+        frame();
+        // The list of windows appears when these have been held for a while.
+        session.push(KeyInput{Key::Control, true, false, true, false});
+        session.push(KeyInput{Key::Tab, true, false, true, false});
+        for (int i = 0; i < frames; ++i) {
+            frame();
+        }
+        workspace.view().help = true;
+        workspace.askBeforeQuit();
+        frame();
+        frame();
+        EXPECT_TRUE(workspace.marks().contains("Stay"));
+    }
+}
+
 TEST(Session, UndoOfATextThatWasLeftIsNotTheNextTexts) {
     // Dear ImGui 1.86 takes the steps up again with the field, and writes before its text.
     model::Model model = begun();

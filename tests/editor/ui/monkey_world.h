@@ -28,6 +28,7 @@ public:
         around_.nodes = {{"root", 0, ""}, {"ball", 1, "mesh"}, {"ball", 2, "probe"}};
         around_.estimators = {"tent", "ring:3", "auto:0.05"};
         around_.clipFromWorld = glm::mat4(0.4f);
+        around_.clipFromWorld[2] = {0.15f, -0.2f, 0.4f, 0.0f}; // no axis towards the eye
         around_.clipFromWorld[3] = {-0.2f, -0.2f, 0.0f, 1.0f};
         around_.presets = {{"mine", model::builtInPresets().back().lights}};
         around_.timesMs = {{"draws", 1.25}};
