@@ -284,5 +284,22 @@ TEST(ReplaceDocumentCommand, KeepsNamesByPlace) {
     EXPECT_EQ(textOf(model), textOf(sampleModel()));
 }
 
+TEST(Undo, SelectsNothingThatIsGone) {
+    Model model = sampleModel();
+    const Id added = did(model, AddStop{keyId(model), 45.0}).created.at(0);
+    ASSERT_EQ(model.selection().stops, std::vector<Id>{added});
+    ASSERT_TRUE(model.undo());
+    EXPECT_TRUE(model.selection().stops.empty());
+    EXPECT_EQ(model.selection().key, keyId(model)) << "what is still there stays selected";
+    const Id last = stopId(model, 4);
+    did(model, DeleteStops{{last}});
+    ASSERT_TRUE(model.undo());
+    Selection selection;
+    selection.stops = {last};
+    model.select(selection);
+    ASSERT_TRUE(model.redo());
+    EXPECT_TRUE(model.selection().stops.empty());
+}
+
 } // namespace
 } // namespace lodestar::model
