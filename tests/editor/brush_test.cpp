@@ -60,6 +60,9 @@ TEST(BrushStrokes, TheWayBetweenSamplesIsPainted) {
         did(many, stroke, drag);
     }
     EXPECT_EQ(textOf(few), textOf(many)) << "however fast the hand was";
+    Model back = flatSky();
+    did(back, BrushStroke{keyId(back), brushOf(6, 0.5, 0.7, 3), {35, -20}});
+    EXPECT_EQ(textOf(back), textOf(few)) << "either way";
     EXPECT_EQ(many.undoCount(), 1U);
     EXPECT_NEAR(redAt(few, 7.0), 0.5 + 0.7 * 2.5, 1e-12);
     EXPECT_TRUE(many.undo());
