@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+//
+// What the hand does on a panel, without a picture: fields act on all that is selected, a fast
+// stroke paints the way between.
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+#include "model/presets.h"
+#include "model/ramp.h"
+#include "ui/session.h"
+#include "ui/workspace.h"
+
+namespace lodestar::ui {
+namespace {
+
+class Hand : public ::testing::Test {
+protected:
+    Hand() {
+        document::Document document;
+        document.lights = {model::builtInPresets().front().lights.front()};
+        document.lights[0].keys[0].gradient.space = lighting::GradientSpace::Linear;
+        model_.reset(document);
+        frame();
+        frame();
+    }
+
+    void frame() {
+        session_.frame(1280, 800, 1.0f, 1.0 / 60.0,
+                       [&] { (void)workspace_.draw(model_, around_); });
+        EXPECT_EQ(session_.failure(), "");
+    }
+    void give(const Input& input) {
+        session_.push(input);
+        frame();
+    }
+    /// @param x share of the thing's width
+    void moveTo(const char* mark, float x = 0.5f) {
+        const Mark& place = workspace_.marks().at(mark);
+        give(MotionInput{place.low.x + x * (place.high.x - place.low.x), place.center().y});
+    }
+    void typeInto(const char* mark, const std::string& text) {
+        moveTo(mark);
+        give(KeyInput{Key::Control, true, false, true, false});
+        give(ButtonInput{0, true});
+        give(ButtonInput{0, false});
+        give(KeyInput{Key::Control, false, false, false, false});
+        for (const char letter : text) {
+            give(TextInput{static_cast<char32_t>(letter)});
+        }
+        give(KeyInput{Key::Enter, true, false, false, false});
+        give(KeyInput{Key::Enter, false, false, false, false});
+    }
+    [[nodiscard]] const document::Gradient& gradient() const {
+        return model_.document().lights[0].keys[0].gradient;
+    }
+
+    model::Model model_;
+    Surroundings around_;
+    Workspace workspace_;
+    Session session_{Session::Drawing::None};
+};
+
+TEST_F(Hand, AFieldActsOnAllStopsThatAreSelected) {
+    model::Selection selection;
+    selection.stops = model_.ids().lights[0].keys[0].stops;
+    ASSERT_GE(selection.stops.size(), 2u);
+    model_.select(selection);
+    frame();
+    typeInto("stop ev", "1.25");
+    for (const document::Stop& stop : gradient().stops) {
+        EXPECT_EQ(stop.stop.ev, 1.25);
+    }
+    EXPECT_EQ(model_.undoCount(), 1u);
+}
+
+TEST_F(Hand, AFastStrokePaintsTheWayBetween) {
+    ViewState& view = workspace_.view();
+    view.brush = true;
+    view.brushSettings = {model::BrushMode::Paint, 4.0, 0.5, 1.0, glm::dvec3(7.0)};
+    moveTo("ramp", 0.25f);
+    give(ButtonInput{0, true});
+    moveTo("ramp", 0.75f);
+    give(ButtonInput{0, false});
+    EXPECT_EQ(model_.undoCount(), 1u);
+    const auto kind = lighting::LightKind::Sky;
+    for (const double place : {0.25, 0.4, 0.5, 0.6, 0.75}) {
+        const double at = atOf(place, kind);
+        EXPECT_NEAR(model::radianceAt(gradient(), kind, {&at, 1}).front().r, 7.0, 1e-9) << at;
+    }
+    const double beside = atOf(0.15, kind);
+    EXPECT_LT(model::radianceAt(gradient(), kind, {&beside, 1}).front().r, 6.0);
+}
+
+} // namespace
+} // namespace lodestar::ui
