@@ -183,6 +183,35 @@ TEST_F(EditorTest, TheEyedropperGivesAStopTheViewportsRadiance) {
     EXPECT_EQ(model().undoCount(), 2u) << "it picks once";
 }
 
+TEST_F(EditorTest, TheEyedropperReadsWhereItPointsAtTheHourThatIsShown) {
+    // Blue above the horizon at the hour that is shown, and darker at any other.
+    document::Document blue;
+    blue.lights.emplace_back().keys.resize(2);
+    for (document::Key& key : blue.lights[0].keys) {
+        const glm::dvec3 above(0.0, 0.0, 1.0);
+        const glm::dvec3 below(1.0, 0.0, 0.0);
+        key.gradient.stops = {
+            {{90, above, 0}, {}}, {{0, above, 0}, {}}, {{0, below, 0}, {}}, {{-90, below, 0}, {}}};
+    }
+    blue.lights[0].keys[0].hour = editor_->workspace().view().hour;
+    blue.lights[0].keys[1].hour = editor_->workspace().view().hour - 12.0;
+    blue.lights[0].keys[1].tint = glm::dvec3(0.0);
+    ASSERT_TRUE(model().execute(model::ReplaceDocument{blue}).ok());
+    settle();
+    model::Selection selection;
+    selection.stops = {model().ids().lights[0].keys[0].stops[3]};
+    model().select(selection);
+    settle();
+    press(Key::I);
+    const ui::Mark viewport = mark("viewport");
+    click({viewport.center().x, viewport.low.y + 20.0f});
+    const glm::dvec3 radiance = lighting::radianceOf(light(0).keys[0].gradient.stops[3].stop);
+    constexpr double kHalf = 1.0 / 1024.0; // a half-float's step at 1
+    EXPECT_NEAR(radiance.r, 0.0, kHalf);
+    EXPECT_NEAR(radiance.g, 0.0, kHalf);
+    EXPECT_NEAR(radiance.b, 1.0, kHalf);
+}
+
 TEST_F(EditorTest, SavesAndOpensAgain) {
     app::EditorOptions options;
     options.lighting = folder_.file("sky.lodestar.json");
