@@ -35,6 +35,7 @@ Performed performOn(State& state, const SimplifyStops& command) {
     }
     std::vector<document::Stop>& stops = edit->gradient.stops;
     std::vector<lighting::GradientStop> plain;
+    plain.reserve(stops.size());
     for (const document::Stop& stop : stops) {
         plain.push_back(stop.stop);
     }

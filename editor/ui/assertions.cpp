@@ -43,6 +43,7 @@ std::string guarded(const std::function<void()>& piece) {
 } // namespace lodestar::ui
 
 // In place of the C library's, whose declaration promises not to throw: <cassert> stays out.
+// NOLINTNEXTLINE(readability-identifier-naming): its name.
 extern "C" [[noreturn]] void __assert_fail(const char* expression, const char* file, unsigned line,
                                            const char*) {
     lodestar::ui::assertionFailed(expression, file, line);

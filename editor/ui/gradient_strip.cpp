@@ -81,6 +81,7 @@ struct GradientStrip::Frame {
 void GradientStrip::drawRamp(Studio& studio, const Frame& frame) const {
     const int columns = std::max(2, static_cast<int>(frame.width / 2.0f));
     std::vector<double> at;
+    at.reserve(static_cast<std::size_t>(columns));
     for (int i = 0; i < columns; ++i) {
         at.push_back(atOf((i + 0.5) / columns, frame.kind));
     }
