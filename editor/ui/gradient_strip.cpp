@@ -180,9 +180,7 @@ void GradientStrip::press(Studio& studio, const Frame& frame, double at) {
         }
         at = frame.key->gradient.stops[*handle].stop.at;
     } else if (ImGui::GetIO().MousePos.y <= frame.bottom() &&
-               ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-        return; // its first click has added the stop
-    } else if (ImGui::GetIO().MousePos.y <= frame.bottom()) {
+               !ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) { // whose first has added one
         const auto added = studio.runOnce(model::AddStop{frame.id, at});
         if (!added || added->created.empty()) {
             return;
