@@ -17,7 +17,8 @@ protected:
     /// Waits as the window's loop does until what is measured is known.
     void measure() {
         using Clock = std::chrono::steady_clock;
-        const auto end = Clock::now() + std::chrono::minutes(10); // of a sanitizer, on a busy machine
+        const auto end =
+            Clock::now() + std::chrono::minutes(10); // of a sanitizer, on a busy machine
         while (Clock::now() < end) {
             settle();
             const ui::AccuracyView& view = editor_->surroundings().accuracy;
