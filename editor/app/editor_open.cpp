@@ -67,11 +67,11 @@ void Editor::openSceneBeside(const std::string& path, const std::string& root) {
     opening_.reset();
     const auto read = [this, path,
                        root](Background::Progress& progress) -> core::Result<Background::Finish> {
-        auto read = readScene(path, root, progress);
-        if (!read) {
-            return read.error();
+        auto loaded = readScene(path, root, progress);
+        if (!loaded) {
+            return loaded.error();
         }
-        auto shown = std::make_shared<Shown>(std::move(*read));
+        auto shown = std::make_shared<Shown>(std::move(*loaded));
         return Background::Finish([this, path, root, shown] {
             warn(shown->scene->warnings, path);
             opening_ = std::make_unique<Opening>(*device_, path, root, std::move(*shown),

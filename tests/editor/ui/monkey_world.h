@@ -147,7 +147,7 @@ private:
             }
             break;
         case 2:
-            around_.work = WorkLine{"Reading sky.hdr", 0.5, !monkey.one(4)};
+            around_.work = WorkLine{"Reading sky.hdr", 0.5};
             break;
         case 3:
             around_.work.reset();
