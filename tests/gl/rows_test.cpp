@@ -87,8 +87,8 @@ struct Maps {
 testing::Lobe sunLobe(const testing::SpherePixel& pixel, double exponent, const DayLight& sun) {
     const testing::Lobe round = testing::lobeOf(pixel, exponent);
     const glm::dvec3 axis = lighting::momentAt(sun, 12.0).axis;
-    const double spread = lighting::spread(
-        lighting::unfiltered(lighting::RadianceProfile(sun.keys.front().gradient, LightKind::Sun)));
+    const double spread = lighting::spread(lighting::unfiltered(
+        lighting::RadianceProfile(sun.keys.front().gradient, lighting::LightKind::Sun)));
     const auto looked = shader_double::lodestar_sunLookup(
         pixel.normal, pixel.view, exponent, round.direction, round.exponent, axis, spread);
     const double half = looked.halfChord;
