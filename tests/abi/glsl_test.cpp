@@ -184,7 +184,7 @@ TEST_F(AbiGlsl, UniformsAreWhereTheyAreSaidToBe) {
                 bytes = info.offset + 16 * info.count;
             }
         }
-        EXPECT_EQ(index, 12u);
+        EXPECT_EQ(index, 13u);
         if (block != 0) {
             GLint size = 0;
             glGetActiveUniformBlockiv(program, glGetUniformBlockIndex(program, "LodestarLighting"),
