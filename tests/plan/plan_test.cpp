@@ -408,25 +408,16 @@ TEST(Plan, FacesThatComeLaterArePublishedLater) {
     EXPECT_FALSE(publishes.drawChoices.empty());
 }
 
-// Of a sun the lookups are as sharp as 0.315 (s + 1)^(3/2), s being 1 / 1.294 of the sharpest else
-// (docs/derivations/sun.md): 2048 at 450.
+// Of a sun lookups are as sharp as 0.315 (s + 1)^(3/2), s being 1 / 1.294 of the sharpest else.
 TEST(Plan, MirrorsAloneReadTheGradients) {
-    DrawView rough = ball();
-    rough.sharpest = 448.0;
-    DrawView polished = ball();
-    polished.sharpest = 452.0;
-    PlanInput input = underLights({rough, polished});
-    const EffectPlan underSun = plan(input);
-    EXPECT_FALSE(has(underSun.drawFeatures[0], Feature::RsrmMirror));
-    EXPECT_TRUE(has(underSun.drawFeatures[1], Feature::RsrmMirror));
-    for (RsrmLightView& light : input.rsrmLights) {
-        light.sky = true;
+    PlanInput input = underLights({ball(), ball()});
+    for (const double last : {450.0, 2048.5}) {
+        input.rsrmLights[1].sky = last > 2048.0;
+        input.draws[0].sharpest = last - 2.0;
+        input.draws[1].sharpest = last + 2.0;
+        EXPECT_FALSE(has(plan(input).drawFeatures[0], Feature::RsrmMirror)) << last;
+        EXPECT_TRUE(has(plan(input).drawFeatures[1], Feature::RsrmMirror)) << last;
     }
-    input.draws[0].sharpest = 2048.0;
-    input.draws[1].sharpest = 2049.0;
-    const EffectPlan result = plan(input);
-    EXPECT_FALSE(has(result.drawFeatures[0], Feature::RsrmMirror));
-    EXPECT_TRUE(has(result.drawFeatures[1], Feature::RsrmMirror));
     input.rsrmPublished = true;
     EXPECT_FALSE(has(plan(input).drawFeatures[1], Feature::RsrmMirror)) << "as published";
     input.rsrmLights.clear();
