@@ -412,7 +412,7 @@ TEST(Plan, FacesThatComeLaterArePublishedLater) {
 TEST(Plan, MirrorsAloneReadTheGradients) {
     PlanInput input = underLights({ball(), ball()});
     for (const double last : {450.0, 2048.5}) {
-        input.rsrmLights[1].sky = last > 2048.0;
+        input.rsrmLights[0].sky = input.rsrmLights[1].sky = last > 2048.0;
         input.draws[0].sharpest = last - 2.0;
         input.draws[1].sharpest = last + 2.0;
         EXPECT_FALSE(has(plan(input).drawFeatures[0], Feature::RsrmMirror)) << last;
