@@ -114,7 +114,7 @@ constexpr std::pair<const char*, std::array<const char*, 4>> kPanels[] = {
      {"environment source", "environment rotation", "environment ev", "Remove environment"}},
     {"day", {"day", "key", "hour", "Copy here"}},
     {"report", {"tab Plan", "tab Times", "tab Log", "tab Accuracy"}},
-    {"accuracy", {"accuracy plot", "tab Map rows", "map rows", "accuracy plot"}},
+    {"accuracy", {"accuracy plot", "tab Map rows", "row slider 0", "row 0"}},
     {"photograph", {"photograph", "way Line", "way Pixel", "Use as the lights"}},
 };
 
