@@ -45,7 +45,7 @@ double power(double logCosine, double s) {
 struct Turn {
     double sine, cosine;
     explicit Turn(double angle) : sine(std::sin(angle)), cosine(std::cos(angle)) {}
-    Turn(double sine, double cosine) : sine(sine), cosine(cosine) {}
+    Turn(double itsSine, double itsCosine) : sine(itsSine), cosine(itsCosine) {}
     [[nodiscard]] Turn plus(const Turn& by) const {
         return {sine * by.cosine + cosine * by.sine, cosine * by.cosine - sine * by.sine};
     }
