@@ -46,7 +46,7 @@ void describe(T& text, MirrorStops& c) {
 }
 template <class T>
 void describe(T& text, DistributeStops& c) {
-    text.command("DistributeStops")("key", c.key);
+    text.command("DistributeStops")("key", c.key).given("fromLeft", c.fromLeft);
 }
 template <class T>
 void describe(T& text, SimplifyStops& c) {

@@ -203,8 +203,9 @@ Performed performOn(State& state, const DistributeStops& command) {
     std::vector<document::Stop>& stops = edit->gradient.stops;
     const double first = stops.front().stop.at;
     const double last = stops.back().stop.at;
-    for (std::size_t i = 1; i + 1 < stops.size(); ++i) {
-        const double t = static_cast<double>(i) / static_cast<double>(stops.size() - 1);
+    const std::size_t parts = command.fromLeft ? stops.size() : stops.size() - 1;
+    for (std::size_t i = 1; i < parts; ++i) {
+        const double t = static_cast<double>(i) / static_cast<double>(parts);
         // This way rounding keeps their order, and lets stops of one place lie.
         stops[i].stop.at = plain(
             std::clamp(first + t * (last - first), std::min(first, last), std::max(first, last)));

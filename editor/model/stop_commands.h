@@ -72,9 +72,12 @@ struct MirrorStops {
     Id key = Id::None;
 };
 
-/// Spaces the stops evenly between the first and the last; steps are drawn apart.
+/// Spaces the stops evenly between the first and the last; steps are drawn apart. From the left,
+/// each begins an equal part of what they span, so that without interpolation each holds as long:
+/// the last one moves too.
 struct DistributeStops {
     Id key = Id::None;
+    bool fromLeft = false;
 };
 
 /// Leaves at most `count` stops, first and last among them: again and again the stop goes whose

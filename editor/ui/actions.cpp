@@ -30,6 +30,7 @@ constexpr Binding kBindings[] = {
     {Action::Reverse, Menu::Gradient, "Reverse", Key::R},
     {Action::Mirror, Menu::Gradient, "Mirror", Key::M},
     {Action::Distribute, Menu::Gradient, "Distribute", Key::D},
+    {Action::DistributeFromLeft, Menu::Gradient, "Distribute from the left", Key::D, false, true},
     {Action::Brush, Menu::Gradient, "Brush", Key::B},
     {Action::Pick, Menu::Gradient, "Pick radiance from the viewport", Key::I},
     {Action::FrameSelection, Menu::View, "Frame what is selected", Key::F},

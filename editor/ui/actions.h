@@ -32,6 +32,7 @@ enum class Action {
     Reverse,
     Mirror,
     Distribute,
+    DistributeFromLeft,
     Brush,
     Pick,
     FrameSelection,

@@ -96,7 +96,7 @@ void drawShapeButtons(Studio& studio, model::Id key, lighting::LightKind kind) {
         studio.runOnce(model::MirrorStops{key});
     }
     continueRow(buttonWidth("Distribute"));
-    if (button(studio, "Distribute", "D")) {
+    if (button(studio, "Distribute", "D; with Shift from the left")) {
         studio.runOnce(model::DistributeStops{key});
     }
     continueRow(buttonWidth("Simplify"));

@@ -165,7 +165,8 @@ bool Workspace::performOnGradient(Studio& studio, const Binding& binding) {
         studio.runOnce(model::MirrorStops{key});
         return true;
     case Action::Distribute:
-        studio.runOnce(model::DistributeStops{key});
+    case Action::DistributeFromLeft:
+        studio.runOnce(model::DistributeStops{key, binding.action == Action::DistributeFromLeft});
         return true;
     case Action::Brush:
         view_.brush = !view_.brush;

@@ -227,7 +227,7 @@ private:
         case 6:
             return MirrorStops{key()};
         case 7:
-            return DistributeStops{key()};
+            return DistributeStops{key(), chance_.one(2)};
         case 8:
             return SimplifyStops{key(), 1 + chance_.below(20)};
         case 9:

@@ -130,6 +130,15 @@ TEST(Stops, DistributeSpacesThemEvenly) {
     EXPECT_EQ(redsOf(model), (std::vector<double>{1, 2, 3, 4, 5}));
 }
 
+TEST(Stops, DistributedFromTheLeftEachHoldsAsLong) {
+    Model model = skyOf({grey(90, 1), grey(80, 2), grey(-20, 3), grey(-90, 4)});
+    did(model, DistributeStops{keyId(model), true});
+    EXPECT_EQ(placesOf(model), (std::vector<double>{90, 45, 0, -45}));
+    EXPECT_EQ(redsOf(model), (std::vector<double>{1, 2, 3, 4}));
+    ASSERT_TRUE(model.undo());
+    EXPECT_EQ(placesOf(model), (std::vector<double>{90, 80, -20, -90}));
+}
+
 TEST(Stops, SimplifyFindsTheCornersOfAPolyline) {
     std::vector<GradientStop> stops;
     for (int i = 0; i <= 9000; ++i) {
