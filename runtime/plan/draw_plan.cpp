@@ -48,9 +48,10 @@ Features probeFeatures(const PlanInput& input, const ProbeChoice& choice) {
 }
 
 /// The Phong exponent of the sharpest lookup that a draw makes in a sun's map (SUN-6).
-/// @param sharpest of its other lookups, seen along the surface: 1.294 s (LOOK-8)
+/// @param sharpest of its other lookups, seen along the surface: 1.294 s - 1.6 at least (LOOK-8)
 double sharpestInSuns(double sharpest) {
-    return std::max(sharpest, 0.315 * std::pow(sharpest / 1.294 + 1.0, 1.5));
+    const double root = std::sqrt((sharpest + 1.6) / 1.294 + 1.0);
+    return std::max(sharpest, 0.315 * root * root * root + 1.7 * root);
 }
 
 Features featuresOf(const PlanInput& input, const DrawView& draw, Features lights,

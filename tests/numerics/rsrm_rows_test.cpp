@@ -136,25 +136,11 @@ TEST(RsrmOwnRows, LayoutAndTextAgree) {
 // rings. Five digits of the row's peak are the goal of kernels in float.
 TEST(RsrmOwnRows, KernelsKeepFiveDigits) {
     const RsrmLayout layout = rsrmWithRows(kUneven);
-    const std::vector<double> thetas = columnAngles(RsrmColumns::Refined, layout.columns);
     for (const RsrmSource& source : kRsrmSources) {
         const RsrmBake bake = bakeOf(layout, source);
         const ZonalRadiance zonal = source.zonal(zonesFor(source.kind));
-        const std::vector<double> edges = zoneEdges(zonal.zones);
         ASSERT_EQ(bake.exponents, bakedExponents(layout));
-        for (std::size_t e = 0; e < bake.exponents.size(); ++e) {
-            const float* row = bake.value(e, 1);
-            const auto peak = static_cast<double>(*std::max_element(row, row + bake.columns));
-            for (std::size_t i = 0; i < bake.columns; i += 13) {
-                const auto weights = ringWeights(thetas[i], edges, bake.exponents[e]);
-                double sum = 0.0;
-                for (std::size_t j = 0; j < weights.size(); ++j) {
-                    sum += weights[j] * zonal.means[j].g;
-                }
-                ASSERT_NEAR(static_cast<double>(row[i]), sum, 1e-5 * peak)
-                    << source.name << " s " << bake.exponents[e] << " column " << i;
-            }
-        }
+        EXPECT_LT(worstOfPeak(bake, zonal, 1, 13), 1e-5) << source.name;
     }
 }
 

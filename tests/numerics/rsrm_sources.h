@@ -89,6 +89,29 @@ struct RsrmTruth {
     }
 };
 
+/// How far a bake's values are from sums in double precision, over the row's peak.
+/// @param rows, columns every how many are looked at
+inline double worstOfPeak(const lighting::RsrmBake& bake, const lighting::ZonalRadiance& zonal,
+                          std::size_t rows, std::size_t columns) {
+    const std::vector<double> edges = lighting::zoneEdges(zonal.zones);
+    const std::vector<double> thetas =
+        lighting::columnAngles(lighting::RsrmColumns::Refined, static_cast<int>(bake.columns));
+    double worst = 0.0;
+    for (std::size_t e = 0; e < bake.exponents.size(); e += rows) {
+        const float* row = bake.value(e, 1);
+        const auto peak = static_cast<double>(*std::max_element(row, row + bake.columns));
+        for (std::size_t i = 0; i < bake.columns; i += columns) {
+            const auto weights = lighting::ringWeights(thetas[i], edges, bake.exponents[e]);
+            double sum = 0.0;
+            for (std::size_t j = 0; j < weights.size(); ++j) {
+                sum += weights[j] * zonal.means[j].g;
+            }
+            worst = std::max(worst, std::abs(static_cast<double>(row[i]) - sum) / peak);
+        }
+    }
+    return worst;
+}
+
 struct RsrmError {
     double ofPeak = 0.0;  ///< worst |error| over the exponent's peak
     double local = 0.0;   ///< worst |error| over the value, where that is at least 1 % of the peak

@@ -146,22 +146,7 @@ TEST(RsrmBake, FloatKernelsKeepFiveDigits) {
     for (const RsrmSource& source : kRsrmSources) {
         const auto kernel = kernels().get(kRsrmSmall, source.kind);
         const ZonalRadiance zonal = source.zonal(kernel->zones());
-        const std::vector<double> edges = zoneEdges(zonal.zones);
-        const std::vector<double> thetas = columnAngles(RsrmColumns::Refined, kRsrmSmall.columns);
-        const RsrmBake bake = kernel->bake(zonal);
-        for (std::size_t e = 0; e < bake.exponents.size(); e += 3) {
-            const float* row = bake.value(e, 1);
-            const auto peak = static_cast<double>(*std::max_element(row, row + bake.columns));
-            for (std::size_t i = 0; i < bake.columns; i += 7) {
-                const auto weights = ringWeights(thetas[i], edges, bake.exponents[e]);
-                double sum = 0.0;
-                for (std::size_t j = 0; j < weights.size(); ++j) {
-                    sum += weights[j] * zonal.means[j].g;
-                }
-                ASSERT_NEAR(static_cast<double>(row[i]), sum, 1e-5 * peak)
-                    << source.name << " s " << bake.exponents[e] << " column " << i;
-            }
-        }
+        EXPECT_LT(worstOfPeak(kernel->bake(zonal), zonal, 3, 7), 1e-5) << source.name;
     }
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "parity/cases.h"
+#include "parity/draw.h"
 
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -21,15 +21,9 @@ const std::vector<float> kValidExponents = {0.0f,  1e-3f, 0.5f,    1.0f, 2.0f,  
 const std::vector<float> kInvalidExponents = {-0.0f,     -3.0f,      1.5e7f, 1e30f,
                                               kInfinity, -kInfinity, kNan};
 
-class Draw {
+class Draw : public DrawnNumbers {
 public:
-    explicit Draw(unsigned seed) : random_(seed) {}
-    float uniform(float low, float high) {
-        return low + (high - low) * static_cast<float>(static_cast<double>(random_()) * 0x1p-32);
-    }
-    float logarithmic(float low, float high) {
-        return low * std::pow(high / low, uniform(0.0f, 1.0f));
-    }
+    using DrawnNumbers::DrawnNumbers;
     glm::vec3 unit() {
         while (true) {
             const glm::vec3 v(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
@@ -52,9 +46,6 @@ public:
         const std::size_t i = random_() % (3 * kValidExponents.size());
         return i < kValidExponents.size() ? kValidExponents[i] : logarithmic(1e-2f, 1e7f);
     }
-
-private:
-    std::mt19937 random_;
 };
 
 GlslCase firstOf(float x, float y = 0.0f, float z = 0.0f, float w = 0.0f) {

@@ -4,13 +4,13 @@
 // them.
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "parity/cases.h"
+#include "parity/draw.h"
 #include "parity/tolerances.h"
 
 namespace lodestar::testing {
@@ -19,12 +19,9 @@ namespace {
 constexpr double u = 0x1p-23;
 constexpr int kDrawn = 300;
 
-class Draw {
+class Draw : public DrawnNumbers {
 public:
-    explicit Draw(unsigned seed) : random_(seed) {}
-    float uniform(float low, float high) {
-        return low + (high - low) * static_cast<float>(static_cast<double>(random_()) * 0x1p-32);
-    }
+    using DrawnNumbers::DrawnNumbers;
     /// @param least of each component's size
     glm::vec3 unit(float least = 0.0f) {
         while (true) {
@@ -37,9 +34,6 @@ public:
             }
         }
     }
-
-private:
-    std::mt19937 random_;
 };
 
 Tolerance all(double tolerance) {

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
 
 #include <glm/geometric.hpp>
 
 #include "parity/cases.h"
+#include "parity/draw.h"
 #include "parity/tolerances.h"
 
 #define LODESTAR_DOUBLE_PRECISION
@@ -20,26 +20,6 @@ namespace {
 constexpr double u = 0x1p-23;
 /// Below this a driver may flush a number to zero.
 constexpr double kTiny = 1.2e-38;
-
-class Draw {
-public:
-    explicit Draw(unsigned seed) : random_(seed) {}
-    float uniform(float low, float high) {
-        return low + (high - low) * static_cast<float>(static_cast<double>(random_()) * 0x1p-32);
-    }
-    float logarithmic(float low, float high) {
-        return low * std::pow(high / low, uniform(0.0f, 1.0f));
-    }
-    glm::vec3 unit() {
-        const float z = uniform(-1.0f, 1.0f);
-        const float azimuth = uniform(0.0f, 6.2831853f);
-        const float sine = std::sqrt(1.0f - z * z);
-        return {sine * std::cos(azimuth), sine * std::sin(azimuth), z};
-    }
-
-private:
-    std::mt19937 random_;
-};
 
 /// e^-y where y is off by dy.
 double decayError(double value, double y, double dy) {
@@ -86,7 +66,7 @@ std::vector<GlslCase> sgCases() {
     constexpr std::array<float, 12> kSharpness{0.0f,  1e-8f, 1e-3f, 0.00099f, 0.05f, 1.0f,
                                                90.0f, 1e4f,  1e7f,  1e30f,    -3.0f, 3e38f};
     std::vector<GlslCase> cases;
-    Draw draw(31u);
+    DrawnDirections draw(31u);
     for (std::size_t i = 0; i < kDrawn; ++i) {
         GlslCase inputs{};
         const glm::vec3 a = draw.unit();

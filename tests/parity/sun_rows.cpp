@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
 
 #include <glm/geometric.hpp>
 
 #include "parity/cases.h"
+#include "parity/draw.h"
 #include "parity/tolerances.h"
 
 #define LODESTAR_DOUBLE_PRECISION
@@ -19,26 +19,6 @@ namespace {
 
 constexpr double u = 0x1p-23;
 constexpr double kLog2 = 0.6931471805599453;
-
-class Draw {
-public:
-    explicit Draw(unsigned seed) : random_(seed) {}
-    float uniform(float low, float high) {
-        return low + (high - low) * static_cast<float>(static_cast<double>(random_()) * 0x1p-32);
-    }
-    float logarithmic(float low, float high) {
-        return low * std::pow(high / low, uniform(0.0f, 1.0f));
-    }
-    glm::vec3 unit() {
-        const float z = uniform(-1.0f, 1.0f);
-        const float azimuth = uniform(0.0f, 6.2831853f);
-        const float sine = std::sqrt(1.0f - z * z);
-        return {sine * std::cos(azimuth), sine * std::sin(azimuth), z};
-    }
-
-private:
-    std::mt19937 random_;
-};
 
 double log2Error(double x) {
     return x >= 0.5 && x <= 2.0 ? 0x1p-21 : 3.0 * u * std::abs(std::log2(x));
@@ -93,7 +73,7 @@ double logDensityError(const Sun& sun) {
 
 std::vector<GlslCase> logChordCases() {
     std::vector<GlslCase> cases;
-    Draw draw(41u);
+    DrawnDirections draw(41u);
     for (const float d : {0.0f, 1e-30f, 1e-7f, 0.00999f, 0.01f, 0.0101f, 0.5f, 0.999f}) {
         cases.push_back({glm::vec4(d, 0.0f, 0.0f, 0.0f)});
     }
@@ -125,7 +105,7 @@ std::vector<GlslCase> sunCases() {
     constexpr std::array<float, 9> kExponents{0.0f, 1e-3f, 1.0f,  8.0f, 256.0f,
                                               1e4f, 1e7f,  -2.0f, 3e38f};
     std::vector<GlslCase> cases;
-    Draw draw(42u);
+    DrawnDirections draw(42u);
     while (cases.size() < 400) {
         const std::size_t i = cases.size();
         const glm::vec3 n = draw.unit();

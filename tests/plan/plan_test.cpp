@@ -408,10 +408,10 @@ TEST(Plan, FacesThatComeLaterArePublishedLater) {
     EXPECT_FALSE(publishes.drawChoices.empty());
 }
 
-// Of a sun lookups are as sharp as 0.315 (s + 1)^(3/2), s being 1 / 1.294 of the sharpest else.
+// Of a sun lookups may be as sharp as (SUN-6) says: 2048 where the sharpest else is 443.
 TEST(Plan, MirrorsAloneReadTheGradients) {
     PlanInput input = underLights({ball(), ball()});
-    for (const double last : {450.0, 2048.5}) {
+    for (const double last : {443.2, 2048.5}) {
         input.rsrmLights[0].sky = input.rsrmLights[1].sky = last > 2048.0;
         input.draws[0].sharpest = last - 2.0;
         input.draws[1].sharpest = last + 2.0;

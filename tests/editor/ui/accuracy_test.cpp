@@ -14,26 +14,6 @@ using platform::Key;
 
 class AccuracyEditorTest : public EditorTest {
 protected:
-    /// Waits as the window's loop does until what is measured is known.
-    void measure() {
-        using Clock = std::chrono::steady_clock;
-        const auto end =
-            Clock::now() + std::chrono::minutes(10); // of a sanitizer, on a busy machine
-        while (Clock::now() < end) {
-            settle();
-            const ui::AccuracyView& view = editor_->surroundings().accuracy;
-            const bool done =
-                !view.material.empty() && view.progress >= 1.0 &&
-                std::all_of(view.lines.begin(), view.lines.end(),
-                            [](const ui::EstimateLine& line) { return line.ms && line.error; });
-            if (done && editor_->patience() >= 1.0) {
-                return;
-            }
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-            editor_->advance(0.01);
-        }
-        FAIL() << "it is never measured";
-    }
     [[nodiscard]] const ui::EstimateLine& line(const std::string& name) const {
         for (const ui::EstimateLine& known : editor_->surroundings().accuracy.lines) {
             if (known.name == name) {

@@ -30,13 +30,6 @@ protected:
         settle();
         return made->created.front();
     }
-    void hold(bool control, bool shift) {
-        const platform::Modifiers held{shift, control, false};
-        send(platform::KeyEvent{Key::Control, control, false, held});
-        settle();
-        send(platform::KeyEvent{Key::Shift, shift, false, held});
-        settle();
-    }
     [[nodiscard]] ImVec2 handle(double degrees) const {
         return {onRamp(static_cast<float>(ui::placeOf(degrees, lighting::LightKind::Sky))).x,
                 onRamp(0.0f, 1.25f).y};
@@ -115,13 +108,6 @@ protected:
         }
     }
     [[nodiscard]] double y() { return model().document().probes.at(0).probe.position.y; }
-    void hold(bool control, bool shift) {
-        const platform::Modifiers held{shift, control, false};
-        send(platform::KeyEvent{Key::Control, control, false, held});
-        settle();
-        send(platform::KeyEvent{Key::Shift, shift, false, held});
-        settle();
-    }
     /// Of the scene's diagonal, as the tooltip says.
     [[nodiscard]] double step() const {
         const ui::Surroundings& around = editor_->surroundings();

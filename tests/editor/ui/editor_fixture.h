@@ -4,8 +4,10 @@
 // texture and read back.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <thread>
 
 #include "app/editor.h"
@@ -87,6 +89,37 @@ protected:
         ASSERT_FALSE(editor_->works());
         settle();
     }
+    /// Frames as the window's loop has them until something is so, for ten minutes at most: of a
+    /// sanitizer on a busy machine. @return the longest of what goes before a frame, milliseconds
+    double waitUntil(const std::function<bool()>& so) {
+        using Clock = std::chrono::steady_clock;
+        const auto end = Clock::now() + std::chrono::minutes(10);
+        double longest = 0.0;
+        while (!so()) {
+            EXPECT_LT(Clock::now(), end) << "it never is";
+            if (Clock::now() >= end) {
+                break;
+            }
+            settle();
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            const auto before = Clock::now();
+            editor_->advance(0.005);
+            longest = std::max(
+                longest, std::chrono::duration<double, std::milli>(Clock::now() - before).count());
+        }
+        return longest;
+    }
+    /// Whether what the accuracy panel asks for is known.
+    [[nodiscard]] bool measured() const {
+        const ui::AccuracyView& view = editor_->surroundings().accuracy;
+        return !view.material.empty() && view.progress >= 1.0 &&
+               std::all_of(view.lines.begin(), view.lines.end(),
+                           [](const ui::EstimateLine& line) { return line.ms && line.error; });
+    }
+    /// Until it is. @return as waitUntil
+    double measure() {
+        return waitUntil([this] { return measured() && editor_->patience() >= 1.0; });
+    }
     void send(const platform::Event& event) { editor_->handle(event); }
     void moveTo(const ImVec2& place) {
         send(platform::MotionEvent{static_cast<double>(place.x), static_cast<double>(place.y)});
@@ -113,6 +146,14 @@ protected:
     void press(platform::Key key, platform::Modifiers modifiers = {}) {
         send(platform::KeyEvent{key, true, false, modifiers});
         send(platform::KeyEvent{key, false, false, modifiers});
+        settle();
+    }
+    /// Keys that stay down, or not, from here on.
+    void hold(bool control, bool shift) {
+        const platform::Modifiers held{shift, control, false};
+        send(platform::KeyEvent{platform::Key::Control, control, false, held});
+        settle();
+        send(platform::KeyEvent{platform::Key::Shift, shift, false, held});
         settle();
     }
     void setClipboard(const std::string& text) { clipboard_ = text; }

@@ -104,12 +104,7 @@ TEST_F(MapRowsEditorTest, ErrorsAreOfTheRowsThatThereAre) {
                    return row.error.has_value();
                });
     };
-    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
-    while (!measured() && std::chrono::steady_clock::now() < end) {
-        settle();
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        editor_->advance(0.01);
-    }
+    waitUntil(measured);
     ASSERT_TRUE(measured());
     const std::vector<ui::MapRow> before = editor_->surroundings().accuracy.rows;
     EXPECT_EQ(before[1].exponent, 12.0);

@@ -22,31 +22,6 @@ protected:
         open(options);
     }
     [[nodiscard]] const ui::AccuracyView& view() const { return editor_->surroundings().accuracy; }
-    [[nodiscard]] bool measured() const {
-        return !view().material.empty() && view().progress >= 1.0 &&
-               std::all_of(view().lines.begin(), view().lines.end(),
-                           [](const ui::EstimateLine& line) { return line.ms && line.error; });
-    }
-    /// Frames as the window's loop has them until all is measured. @return the longest of what goes
-    /// before a frame, milliseconds
-    double measure() {
-        using Clock = std::chrono::steady_clock;
-        const auto end = Clock::now() + std::chrono::minutes(3);
-        double longest = 0.0;
-        while (!(measured() && editor_->patience() >= 1.0)) {
-            EXPECT_LT(Clock::now(), end) << "it is never measured";
-            if (Clock::now() >= end) {
-                break;
-            }
-            settle();
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-            const auto before = Clock::now();
-            editor_->advance(0.005);
-            longest = std::max(
-                longest, std::chrono::duration<double, std::milli>(Clock::now() - before).count());
-        }
-        return longest;
-    }
 };
 
 TEST_F(MeasuringTest, APhotographIsMeasuredInSlices) {

@@ -188,41 +188,46 @@ TEST(Assertions, OneInAFrameCostsTheFrameAndNotTheDocument) {
     EXPECT_TRUE(workspace.marks().count("ramp") > 0);
 }
 
+/// The panels over a document, frame by frame.
+struct Desk {
+    model::Model model = begun();
+    const Surroundings around = spheres();
+    Workspace workspace;
+    Session session{Session::Drawing::None};
+    void frame() {
+        session.frame(kWidth, kHeight, 1.0f, 1.0 / 60.0,
+                      [&] { (void)workspace.draw(model, around); });
+        EXPECT_EQ(session.failure(), "");
+    }
+};
+
 TEST(Session, EscapeIsTakenWhileAMenuGivesWayToAnother) {
     // Dear ImGui 1.86 alone reads through null in one of these frames.
     for (int frames = 0; frames < 6; ++frames) {
-        model::Model model = begun();
-        const Surroundings around = spheres();
-        Workspace workspace;
-        Session session(Session::Drawing::None);
-        const auto frame = [&] {
-            session.frame(kWidth, kHeight, 1.0f, 1.0 / 60.0,
-                          [&] { (void)workspace.draw(model, around); });
-            EXPECT_EQ(session.failure(), "");
-        };
+        Desk desk;
         const auto to = [&](const char* mark) {
-            const ImVec2 place = workspace.marks().at(mark).center();
-            session.push(MotionInput{place.x, place.y});
+            const ImVec2 place = desk.workspace.marks().at(mark).center();
+            desk.session.push(MotionInput{place.x, place.y});
         };
-        frame();
+        desk.frame();
         to("menu File");
-        frame();
-        session.push(ButtonInput{0, true});
-        session.push(ButtonInput{0, false});
-        frame();
-        frame();
-        frame();
-        ASSERT_TRUE(workspace.marks().contains("Save lighting"));
+        desk.frame();
+        desk.session.push(ButtonInput{0, true});
+        desk.session.push(ButtonInput{0, false});
+        desk.frame();
+        desk.frame();
+        desk.frame();
+        ASSERT_TRUE(desk.workspace.marks().contains("Save lighting"));
         to("menu Edit");
         for (int i = 0; i < frames; ++i) {
-            frame();
+            desk.frame();
         }
-        session.push(KeyInput{Key::Escape, true, false, false, false});
-        frame();
-        session.push(KeyInput{Key::Escape, false, false, false, false});
-        frame();
-        frame();
-        EXPECT_FALSE(workspace.marks().contains("Save lighting")) << frames;
+        desk.session.push(KeyInput{Key::Escape, true, false, false, false});
+        desk.frame();
+        desk.session.push(KeyInput{Key::Escape, false, false, false, false});
+        desk.frame();
+        desk.frame();
+        EXPECT_FALSE(desk.workspace.marks().contains("Save lighting")) << frames;
     }
 }
 
@@ -230,64 +235,48 @@ TEST(Session, AWindowAppearsInTheFrameOfAQuestion) {
     // Dear ImGui 1.86 asserts where one does behind the question.
     for (int frames = 0; frames < 24; ++frames) {
         SCOPED_TRACE(frames);
-        model::Model model = begun();
-        const Surroundings around = spheres();
-        Workspace workspace;
-        Session session(Session::Drawing::None);
-        const auto frame = [&] {
-            session.frame(kWidth, kHeight, 1.0f, 1.0 / 60.0,
-                          [&] { (void)workspace.draw(model, around); });
-            EXPECT_EQ(session.failure(), "");
-        };
-        frame();
-        frame();
+        Desk desk;
+        desk.frame();
+        desk.frame();
         // The list of windows appears when these have been held for a while.
-        session.push(KeyInput{Key::Control, true, false, true, false});
-        session.push(KeyInput{Key::Tab, true, false, true, false});
+        desk.session.push(KeyInput{Key::Control, true, false, true, false});
+        desk.session.push(KeyInput{Key::Tab, true, false, true, false});
         for (int i = 0; i < frames; ++i) {
-            frame();
+            desk.frame();
         }
-        workspace.view().help = true;
-        workspace.askBeforeQuit();
-        frame();
-        frame();
-        EXPECT_TRUE(workspace.marks().contains("Stay"));
+        desk.workspace.view().help = true;
+        desk.workspace.askBeforeQuit();
+        desk.frame();
+        desk.frame();
+        EXPECT_TRUE(desk.workspace.marks().contains("Stay"));
     }
 }
 
 TEST(Session, UndoOfATextThatWasLeftIsNotTheNextTexts) {
     // Dear ImGui 1.86 takes the steps up again with the field, and writes before its text.
-    model::Model model = begun();
-    const Surroundings around = spheres();
-    Workspace workspace;
-    Session session(Session::Drawing::None);
-    const auto frame = [&] {
-        session.frame(kWidth, kHeight, 1.0f, 1.0 / 60.0,
-                      [&] { (void)workspace.draw(model, around); });
-        EXPECT_EQ(session.failure(), "");
-    };
+    Desk desk;
     const auto stroke = [&](Key key, bool control) {
-        session.push(KeyInput{key, true, false, control, false});
-        frame();
-        session.push(KeyInput{key, false, false, control, false});
-        session.push(KeyInput{Key::Control, false, false, false, false});
-        frame();
+        desk.session.push(KeyInput{key, true, false, control, false});
+        desk.frame();
+        desk.session.push(KeyInput{key, false, false, control, false});
+        desk.session.push(KeyInput{Key::Control, false, false, false, false});
+        desk.frame();
     };
     const auto enter = [&] {
-        const ImVec2 place = workspace.marks().at("environment source").center();
-        session.push(MotionInput{place.x, place.y});
-        frame();
-        session.push(ButtonInput{0, true});
-        frame();
-        session.push(ButtonInput{0, false});
-        frame();
+        const ImVec2 place = desk.workspace.marks().at("environment source").center();
+        desk.session.push(MotionInput{place.x, place.y});
+        desk.frame();
+        desk.session.push(ButtonInput{0, true});
+        desk.frame();
+        desk.session.push(ButtonInput{0, false});
+        desk.frame();
     };
-    frame();
-    frame();
+    desk.frame();
+    desk.frame();
     enter();
     for (int i = 0; i < 12; ++i) {
-        session.push(TextInput{U'x'});
-        frame();
+        desk.session.push(TextInput{U'x'});
+        desk.frame();
     }
     const ImGuiInputTextState& text = ImGui::GetCurrentContext()->InputTextState;
     EXPECT_EQ(text.CurLenW, 12);
