@@ -74,7 +74,16 @@ public:
             points_[i].weight /= mass;
             squaredNorm_ += points_[i].weight * densities[i] / mass;
         }
+        integral_ = mass;
     }
+
+    /// (n.h)^s (n.l), 0 below the horizon: T without its normaliser. @param l, v unit
+    static double unnormalised(const glm::dvec3& l, const glm::dvec3& v, double exponent) {
+        const glm::dvec3 h = glm::normalize(l + v);
+        return l.z > 0.0 && h.z > 0.0 ? std::pow(h.z, exponent) * l.z : 0.0;
+    }
+    /// Its integral, Z.
+    [[nodiscard]] double integral() const { return integral_; }
 
     /// ||P - T|| / ||T|| over the sphere, P the normalised Phong lobe of an exponent about a unit
     /// direction (LOOK-4).
@@ -115,6 +124,7 @@ private:
     };
     glm::dvec3 view_;
     std::vector<Point> points_;
+    double integral_ = 0.0;
     double squaredNorm_ = 0.0; ///< of T
 };
 

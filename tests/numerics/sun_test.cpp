@@ -13,9 +13,10 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include "numerics/blinn_lobe.h"
+
 #define LODESTAR_DOUBLE_PRECISION
 #include "lodestar/sun.glsl"
-#undef LODESTAR_DOUBLE_PRECISION
 
 namespace lodestar {
 namespace {
@@ -29,25 +30,9 @@ dvec3 viewAt(double degrees) {
     return {std::sin(glm::radians(degrees)), 0.0, std::cos(glm::radians(degrees))};
 }
 
-/// (n.h)^s (n.l); 0 below the horizon.
-double lobe(const dvec3& l, const dvec3& v, double s) {
-    return l.z > 0.0 ? std::pow(glm::normalize(l + v).z, s) * l.z : 0.0;
-}
-
-/// Its integral, by half vectors: dl = 4 (h.v) dh.
-double lobeIntegral(const dvec3& v, double s) {
-    constexpr int kSteps = 500;
-    double sum = 0.0;
-    for (int i = 0; i < kSteps; ++i) {
-        const double cosine = std::pow((i + 0.5) / kSteps, 1.0 / (s + 1.0));
-        const double sine = std::sqrt(1.0 - cosine * cosine);
-        for (int j = 0; j < kSteps; ++j) {
-            const double hDotV = sine * std::cos(kPi * (j + 0.5) / kSteps) * v.x + cosine * v.z;
-            const double nDotL = 2.0 * hDotV * cosine - v.z;
-            sum += hDotV > 0.0 && nDotL > 0.0 ? hDotV * nDotL : 0.0;
-        }
-    }
-    return 4.0 * glm::two_pi<double>() / (s + 1.0) * sum / (kSteps * kSteps);
+/// The lobe's integral at a view angle, degrees.
+double lobeIntegral(double s, double degrees) {
+    return testing::BlinnLobe(s, glm::radians(degrees), 128, 512).integral();
 }
 
 /// A sun as rings of constant radiance about its axis.
@@ -123,7 +108,7 @@ Errors errorsOf(const Sun& sun, double s, double degrees) {
     constexpr int kPlaces = 600;
     const dvec3 v = viewAt(degrees);
     const dvec3 r(-v.x, -v.y, v.z);
-    const double whole = lobeIntegral(v, s);
+    const double whole = lobeIntegral(s, degrees);
     const dvec3 direction =
         glm::normalize(glm::mix(kNormal, r, shader_double::lodestar_lookupBlend(s, v.z)));
     const double round = shader_double::lodestar_lookupExponent(s, v.z);
@@ -140,7 +125,9 @@ Errors errorsOf(const Sun& sun, double s, double degrees) {
         }
         const dvec3 axis = 2.0 * hDotV * h - v;
         const double weight = 4.0 * hDotV / std::pow(cosine, drawn);
-        const double exact = sun.over(axis, [&](const dvec3& l) { return lobe(l, v, s); }) / whole;
+        const double exact = sun.over(axis, [&](const dvec3& l) {
+            return testing::BlinnLobe::unnormalised(l, v, s);
+        }) / whole;
         const double byRound =
             sun.over(axis, [&](const dvec3& l) { return phong(direction, l, round); });
         const auto looked =
@@ -194,7 +181,7 @@ TEST(SunLookups, TheAlbedoIsTheLobesIntegral) {
         for (const double degrees : {10.0, 30.0, 45.0, 60.0, 75.0, 85.0, 88.0}) {
             const dvec3 v = viewAt(degrees);
             const double exact =
-                lobeIntegral(v, s) * shader_double::lodestar_blinnPhongNormaliser(s);
+                lobeIntegral(s, degrees) * shader_double::lodestar_blinnPhongNormaliser(s);
             const double error = shader_double::lodestar_blinnPhongAlbedo(s, v.z) / exact - 1.0;
             worst = std::max(worst, std::abs(error));
         }
