@@ -152,7 +152,6 @@ void keepLights(LodestarContext& context, const std::vector<lighting::DayMoment>
         PlacedLight& light = *context.lights.find(context.order[lit.light]);
         Packet::Light kept;
         kept.blend = texelsOf(light);
-        kept.sky = light.map.day().kind == lighting::LightKind::Sky;
         kept.shown.struct_size = sizeof kept.shown;
         kept.shown.layer = static_cast<std::uint32_t>(lit.light);
         kept.shown.light = context.order[lit.light];
@@ -204,15 +203,6 @@ std::vector<std::uint32_t> featuresOf(const plan::EffectPlan& plan, std::size_t 
     return features;
 }
 
-/// Which of the lights shown are skies, as two numbers of 16 bits each.
-glm::vec2 skiesOf(const std::vector<bool>& skies) {
-    glm::vec2 bits(0.0f);
-    for (std::size_t i = 0; i < skies.size(); ++i) {
-        bits[static_cast<int>(i / 16)] += skies[i] ? static_cast<float>(1u << (i % 16)) : 0.0f;
-    }
-    return bits;
-}
-
 blocks::LodestarLighting uniformsOf(const Packet& packet) {
     blocks::LodestarLighting uniforms{};
     const auto cube = [](const Packet::Cube& from) {
@@ -222,12 +212,8 @@ blocks::LodestarLighting uniformsOf(const Packet& packet) {
     };
     const lighting::RsrmLayout& map = packet.maps;
     const bool environment = packet.environment.texels || packet.irradiance.texels;
-    std::vector<bool> skies;
-    for (const Packet::Light& light : packet.lights) {
-        skies.push_back(light.sky);
-    }
     uniforms.lodestar_counts =
-        glm::vec4(packet.lights.size(), environment ? 1.0f : 0.0f, skiesOf(skies));
+        glm::vec4(packet.lights.size(), environment ? 1.0f : 0.0f, packet.plan.suns(), 0.0f);
     uniforms.lodestar_environmentCube = cube(packet.environment);
     uniforms.lodestar_irradianceCube = cube(packet.irradiance);
     uniforms.lodestar_mapSize = {map.columns, map.rows, map.leastExponent, map.greatestExponent};

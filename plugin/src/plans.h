@@ -26,7 +26,6 @@ struct Packet {
     struct Light {
         LodestarPlannedLight shown{};
         std::shared_ptr<const lighting::LightMap::Blend> blend;
-        bool sky = false;
     };
     struct Cube {
         LodestarEnvironment of = 0;

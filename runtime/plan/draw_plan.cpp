@@ -60,8 +60,9 @@ Features featuresOf(const PlanInput& input, const DrawView& draw, Features light
         return draw.features;
     }
     Features features = draw.features | lights | probeFeatures(input, choice);
-    const bool suns = std::any_of(input.rsrmLights.begin(), input.rsrmLights.end(),
-                                  [](const RsrmLightView& light) { return !light.sky; });
+    const bool suns =
+        std::any_of(input.rsrmLights.begin(), input.rsrmLights.end(),
+                    [](const RsrmLightView& light) { return light.shines && !light.sky; });
     if (has(features, Feature::RsrmLights) && !input.rsrmPublished &&
         (suns ? sharpestInSuns(draw.sharpest) : draw.sharpest) > input.rsrmGreatestExponent) {
         features |= bit(Feature::RsrmMirror);

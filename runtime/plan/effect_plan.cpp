@@ -241,8 +241,9 @@ void planRsrmLights(const PlanInput& input, const Receivers& receivers, EffectPl
             result.rsrmLights.push_back(lit);
         }
     }
-    std::stable_partition(result.rsrmLights.begin(), result.rsrmLights.end(),
-                          [](const LitLight& lit) { return lit.shadow >= 0; });
+    const auto place = [](const LitLight& lit) { return lit.sky ? 2 : lit.shadow >= 0 ? 0 : 1; };
+    std::stable_sort(result.rsrmLights.begin(), result.rsrmLights.end(),
+                     [&](const LitLight& a, const LitLight& b) { return place(a) < place(b); });
     result.rsrmPublished = input.rsrmPublished;
 }
 
@@ -352,6 +353,11 @@ std::vector<std::string> featureNames(Features set) {
 std::size_t EffectPlan::shadowedLights() const {
     return static_cast<std::size_t>(std::count_if(
         rsrmLights.begin(), rsrmLights.end(), [](const LitLight& lit) { return lit.shadow >= 0; }));
+}
+
+std::size_t EffectPlan::suns() const {
+    return static_cast<std::size_t>(std::count_if(rsrmLights.begin(), rsrmLights.end(),
+                                                  [](const LitLight& lit) { return !lit.sky; }));
 }
 
 bool EffectPlan::runs(const std::string& effect) const {

@@ -243,7 +243,7 @@ struct EffectPlan {
         drawOrder; ///< indices into PlanInput::draws: opaque, then blended back to front
     std::vector<Features> drawFeatures; ///< shader features, in drawOrder's order
     std::vector<Batch> batches;         ///< of drawOrder
-    std::vector<LitLight> rsrmLights;   ///< those with a shadow map first
+    std::vector<LitLight> rsrmLights;   ///< suns with a shadow map, other suns, skies
     bool rsrmPublished = false;         ///< the layout of their maps
     std::vector<Batch> casterBatches;   ///< of casters
     std::vector<std::size_t> casters;   ///< indices into PlanInput::draws, of every map drawn
@@ -255,6 +255,8 @@ struct EffectPlan {
 
     /// How many of the lights have a shadow map: the first ones.
     [[nodiscard]] std::size_t shadowedLights() const;
+    /// How many of the lights are suns: the first ones.
+    [[nodiscard]] std::size_t suns() const;
     /// Whether an effect of this name runs.
     [[nodiscard]] bool runs(const std::string& effect) const;
     bool operator==(const EffectPlan&) const = default;

@@ -191,8 +191,7 @@ void GpuLights::describe(const plan::EffectPlan& plan, blocks::LodestarRsrmLight
         block.rsrmAxis[i] = glm::vec4(light.moment.axis, static_cast<float>(lit.light));
         block.rsrmShadow[i].x = static_cast<float>(lit.shadow);
         block.rsrmScale[i].x = light.scale;
-        block.rsrmScale[i].y = isSky(lit.light) ? 1.0f : 0.0f;
-        block.rsrmScale[i].z = static_cast<float>(light.spread);
+        block.rsrmScale[i].y = static_cast<float>(light.spread);
     }
 }
 

@@ -55,6 +55,7 @@ gl::Defines lightDefines(plan::Features features, const plan::EffectPlan& plan) 
     };
     const bool lit = plan::has(features, plan::Feature::RsrmLights);
     return {{"LODESTAR_RSRM_LIGHTS", number(plan::Feature::RsrmLights, plan.rsrmLights.size())},
+            {"LODESTAR_SUNS", number(plan::Feature::RsrmLights, plan.suns())},
             {"LODESTAR_SHADOWS", number(plan::Feature::Shadows, plan.shadowedLights())},
             {"LODESTAR_RSRM_LAYOUT", lit && plan.rsrmPublished ? "1" : "0"}};
 }
@@ -132,14 +133,8 @@ gl::Defines skyDefines(plan::Features features, const plan::EffectPlan& plan) {
     return defines;
 }
 
-/// Of a composition: which of the lights are skies, by bit.
 gl::Defines compositionDefines(const plan::EffectPlan& plan, CompositionPart part) {
     gl::Defines defines = skyDefines(plan.skyFeatures, plan);
-    unsigned skies = 0;
-    for (std::size_t i = 0; i < plan.rsrmLights.size(); ++i) {
-        skies |= plan.rsrmLights[i].sky ? 1u << i : 0u;
-    }
-    defines.emplace_back("LODESTAR_SKIES", std::to_string(skies) + "u");
     defines.emplace_back("LODESTAR_COMPOSED", std::to_string(static_cast<int>(part)));
     return defines;
 }

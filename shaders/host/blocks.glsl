@@ -61,7 +61,7 @@ LODESTAR_BLOCK(LodestarRsrmLights)
     vec4 rsrmRows; ///< first octave, rows an octave; texture coordinate of Lambert's u: z u + w
     vec4 rsrmAxis[LODESTAR_MAX_RSRM_LIGHTS]; ///< xyz unit, w layer of its maps; casters of shadows first
     vec4 rsrmShadow[LODESTAR_MAX_RSRM_LIGHTS]; ///< x: layer of its shadow map
-    vec4 rsrmScale[LODESTAR_MAX_RSRM_LIGHTS];  ///< x: scale of its map; y: 1 for a sky, 0 for a sun; z: its spread
+    vec4 rsrmScale[LODESTAR_MAX_RSRM_LIGHTS];  ///< x: scale of its map; y: a sun's spread
     mat4 shadowFromWorld[LODESTAR_MAX_SHADOWS]; ///< to a layer's texture coordinates and depth
     vec4 shadowTexel[LODESTAR_MAX_SHADOWS];     ///< x: metres of one of its texels
     vec4 rsrmOctaves[LODESTAR_ROW_VECTORS]; ///< log2(s + 1) of the maps' rows where those were given one by one

@@ -27,6 +27,7 @@ layout(location = 0) out vec4 oRadiance; // premultiplied by coverage
 #include "lodestar/rsrm.glsl"
 #include "lodestar/sun.glsl"
 #include "host/rsrm_hooks.glsl"
+#include "host/rsrm_lights.glsl"
 #include "host/shadow.glsl"
 #if LODESTAR_REFERENCE
 #include "host/reference_lights.glsl"
@@ -64,17 +65,14 @@ vec3 punctualLights(LodestarSurface here) {
 #if LODESTAR_RSRM_LIGHTS
 /// Skies and suns: their means over Lambert's lobe and the glossy one summed, then weighed once.
 vec3 rsrmLights(LodestarSurface here) {
-    LodestarLookup lookup = LODESTAR_RSRM_LAYOUT == LODESTAR_RSRM_PUBLISHED
-                                ? lodestar_lookupAsGiven(here.normal, here.view, here.exponent)
-                                : lodestar_lookup(here.normal, here.view, here.exponent);
+    LodestarLookup lookup = rsrmLookup(here);
     float row = rsrmRow(lookup.exponent);
     vec3 lambert = vec3(0.0);
     vec3 glossy = vec3(0.0);
     for (int i = 0; i < LODESTAR_RSRM_LIGHTS; ++i) {
-        LodestarRsrm map = rsrmLight(i);
         float visible = lodestar_host_visibility(i);
 #if LODESTAR_PROBES
-        if (rsrmScale[i].y > 0.5) {
+        if (i >= LODESTAR_SUNS) {
             visible *= hereShares.environment; // probes hold the rest of a sky
         } else if (i >= LODESTAR_SHADOWS) {
             visible *= sunShare(hereShares, i);
@@ -84,18 +82,8 @@ vec3 rsrmLights(LodestarSurface here) {
         lambert += visible * referenceLambert(i, here.normal);
         glossy += visible * referenceGlossy(i, here);
 #else
-        lambert += visible * lodestar_rsrmLambert(map, here.normal);
-#if LODESTAR_RSRM_LAYOUT == 1
-        glossy += visible * lodestar_rsrm(map, lookup.direction, row); // as published
-#else
-        if (rsrmScale[i].y > 0.5) {
-            glossy += visible * lodestar_rsrm(map, lookup.direction, row);
-        } else {
-            LodestarSunLookup sun = lodestar_sunLookup(here.normal, here.view, here.exponent, lookup.direction,
-                                                       lookup.exponent, map.axis, rsrmScale[i].z);
-            glossy += visible * lodestar_rsrmAt(map, sun.halfChord, rsrmRow(sun.exponent));
-        }
-#endif
+        lambert += visible * lodestar_rsrmLambert(rsrmLight(i), here.normal);
+        glossy += visible * rsrmGlossy(i, here, lookup, row);
 #endif
     }
     return lodestar_reflected(here, lambert, glossy);

@@ -41,10 +41,8 @@ void main() {
 #endif
 #if LODESTAR_RSRM_LIGHTS
     vec3 unit = normalize(direction);
-    for (int i = 0; i < LODESTAR_RSRM_LIGHTS; ++i) {
-        if ((LODESTAR_SKIES & (1u << uint(i))) != 0u) { // known once the loop is unrolled
-            sky += lodestar_rsrmGradient(rsrmLight(i), unit);
-        }
+    for (int i = LODESTAR_SUNS; i < LODESTAR_RSRM_LIGHTS; ++i) {
+        sky += lodestar_rsrmGradient(rsrmLight(i), unit);
     }
 #endif
     vec3 open = min(sky * written.x, vec3(written.y));

@@ -4,6 +4,7 @@
 // lodestar/rsrm.glsl, which name a light by its place in the block: a constant once loops unroll.
 // Variants say how many lights there are:
 //   LODESTAR_RSRM_LIGHTS     how many light the frame
+//   LODESTAR_SUNS            how many of them are suns: the first
 //   LODESTAR_RSRM_LAYOUT     LodestarRsrm.layoutName of their maps
 //   LODESTAR_RSRM_ROWS       1: their rows were given one by one
 #if LODESTAR_RSRM_LIGHTS

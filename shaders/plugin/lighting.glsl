@@ -127,18 +127,15 @@ float lodestar_mapRow(float exponent) {
 #endif
 }
 
-bool lodestar_isSky(int light) {
-    uint bits = uint(light < 16 ? lodestar_counts.z : lodestar_counts.w);
-    return ((bits >> uint(light & 15)) & 1u) != 0u;
+/// What of a sky shines on a point: what the host's shadows let through, where no probe stands before it.
+float lodestar_skyVisibility(int light, LodestarShares shares) {
+    float visible = lodestar_host_visibility(light);
+    return (visible < 0.0 ? 1.0 : visible) * shares.environment;
 }
 
-/// What of a light shines on a point: a sky where no probe stands before it, a sun by the host's shadows
-/// or, without, by what probes see of it.
-float lodestar_lightShare(int light, vec3 axis, LodestarShares shares) {
+/// What of a sun shines on a point: by the host's shadows or, without, by what probes see of it.
+float lodestar_sunVisibility(int light, vec3 axis, LodestarShares shares) {
     float visible = lodestar_host_visibility(light);
-    if (lodestar_isSky(light)) {
-        return (visible < 0.0 ? 1.0 : visible) * shares.environment;
-    }
 #if LODESTAR_WITH_PROBES > 0
     return visible < 0.0 ? lodestar_sunShare(shares, axis) : visible;
 #else
@@ -146,23 +143,27 @@ float lodestar_lightShare(int light, vec3 axis, LodestarShares shares) {
 #endif
 }
 
-/// Radiance of the skies and suns, reflected towards the viewer.
+/// Radiance of the skies and suns, reflected towards the viewer. Two loops, because a driver may take both sides of a
+/// branch in each turn of one.
 vec3 lodestar_lightsReflected(LodestarSurface here, LodestarShares shares) {
     LodestarLookup lookup = lodestar_lookup(here.normal, here.view, here.exponent);
     vec3 lambert = vec3(0.0);
     vec3 glossy = vec3(0.0);
-    float row = lodestar_mapRow(lookup.exponent);
-    for (int i = 0; i < int(lodestar_counts.x); ++i) {
+    int suns = int(lodestar_counts.z);
+    for (int i = 0; i < suns; ++i) {
         LodestarRsrm map = lodestar_lightMap(i);
-        float visible = lodestar_lightShare(i, map.axis, shares);
+        float visible = lodestar_sunVisibility(i, map.axis, shares);
+        LodestarSunLookup sun = lodestar_sunLookup(here.normal, here.view, here.exponent, lookup.direction,
+                                                   lookup.exponent, map.axis, lodestar_spreads[i / 4][i % 4]);
         lambert += visible * lodestar_rsrmLambert(map, here.normal);
-        if (lodestar_isSky(i)) {
-            glossy += visible * lodestar_rsrm(map, lookup.direction, row);
-        } else {
-            LodestarSunLookup sun = lodestar_sunLookup(here.normal, here.view, here.exponent, lookup.direction,
-                                                       lookup.exponent, map.axis, lodestar_spreads[i / 4][i % 4]);
-            glossy += visible * lodestar_rsrmAt(map, sun.halfChord, lodestar_mapRow(sun.exponent));
-        }
+        glossy += visible * lodestar_rsrmAt(map, sun.halfChord, lodestar_mapRow(sun.exponent));
+    }
+    float row = lodestar_mapRow(lookup.exponent);
+    for (int i = suns; i < int(lodestar_counts.x); ++i) {
+        LodestarRsrm map = lodestar_lightMap(i);
+        float visible = lodestar_skyVisibility(i, shares);
+        lambert += visible * lodestar_rsrmLambert(map, here.normal);
+        glossy += visible * lodestar_rsrm(map, lookup.direction, row);
     }
     return lodestar_reflected(here, lambert, glossy);
 }

@@ -22,7 +22,7 @@ layout(std140) uniform LodestarLighting {
 #define LODESTAR_UNIFORM uniform
 #endif
 
-/// Lights shown; 1 where there is an environment; which lights are skies, the first 16 and the others, as bits.
+/// Lights shown; 1 where there is an environment; how many of the lights are suns, the first ones; 0.
 LODESTAR_UNIFORM vec4 lodestar_counts;
 LODESTAR_UNIFORM vec4 lodestar_environmentCube; ///< face width, last level, 0, radiance scale
 LODESTAR_UNIFORM vec4 lodestar_irradianceCube;  ///< the same of the irradiance cube

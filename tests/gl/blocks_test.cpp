@@ -48,6 +48,7 @@ gl::Defines everything(int specular, int diffuse, bool on) {
                              "LODESTAR_SKINNING",
                              "LODESTAR_SECOND_JOINTS",
                              "LODESTAR_RSRM_LIGHTS",
+                             "LODESTAR_SUNS",
                              "LODESTAR_RSRM_LAYOUT",
                              "LODESTAR_RSRM_MIRROR",
                              "LODESTAR_RSRM_ROWS",
