@@ -30,6 +30,11 @@ constexpr int kFirstRows = 4;
 
 constexpr const char* kLayouts[] = {"rsrm", "rsrm-published", "rsrm-published-columns"};
 
+/// How a line's maps are stored: the first has the document's own rows.
+const lighting::RsrmLayout& layoutOf(const AccuracyMeter::Subject& subject, std::size_t line) {
+    return line == 0 ? subject.maps : *lighting::rsrmLayoutNamed(kLayouts[line]);
+}
+
 /// Phong: of the lookups of a material that is seen from above.
 double lookupExponent(double exponent) {
     return static_cast<double>(shader::lodestar_lookupExponent(static_cast<float>(exponent), 1.0f));
@@ -242,9 +247,8 @@ private:
         const double exponent = exponentOf(work);
         const Truth truth = truthOf(reference, drawn, kEven, exponent, advance);
         for (std::size_t line = 0; line < work.view.lines.size() && !work.cancelled; ++line) {
-            const lighting::RsrmLayout& named = *lighting::rsrmLayoutNamed(kLayouts[line]);
-            (void)kernels_->get(named, lighting::LightKind::Sky); // for the slices
-            lighting::DayLookup maps(subject.lights, line == 0 ? subject.maps : named, kernels_);
+            // Kernels are made here, for the slices too.
+            lighting::DayLookup maps(subject.lights, layoutOf(subject, line), kernels_);
             measureMaps(work, maps, truth, exponent,
                         [&](const lighting::Accuracy& accuracy, int fetches) {
                             setLine(work, line, accuracy, fetches);
@@ -428,22 +432,21 @@ core::Result<void> AccuracyMeter::prepareLine(gl::Device& device, std::size_t li
         }
         shading_ = std::move(*made);
     }
-    CostedLookup lookup{work_->view.lines[line].name, lighting::Term::Glossy, {}, nullptr};
-    if (!work_->subject.environment) {
-        lookup.layout = lighting::rsrmLayoutNamed(lookup.name);
+    const Subject& subject = work_->subject;
+    if (!subject.environment) {
         prepared_ = nullptr;
-    } else {
-        const std::string& chosen = work_->view.lines[line].chosen;
-        lookup.estimator = *lighting::parseEstimator(chosen.empty() ? lookup.name : chosen,
-                                                     lighting::Term::Glossy);
-        if (prepared_ == work_->subject.environment) {
-            shading_->use(lookup); // all of them read tent mips
-            return {};
-        }
-        prepared_ = work_->subject.environment;
+        return shading_->prepare(subject.lights, layoutOf(subject, line), subject.hour);
     }
-    const lighting::Cubemap none;
-    auto made = shading_->prepare(lookup, prepared_ ? *prepared_ : none, work_->made.get());
+    const std::string& chosen = work_->view.lines[line].chosen;
+    CostedLookup lookup{work_->view.lines[line].name, lighting::Term::Glossy, {}, nullptr};
+    lookup.estimator =
+        *lighting::parseEstimator(chosen.empty() ? lookup.name : chosen, lighting::Term::Glossy);
+    if (prepared_ == subject.environment) {
+        shading_->use(lookup); // all of them read tent mips
+        return {};
+    }
+    prepared_ = subject.environment;
+    auto made = shading_->prepare(lookup, *prepared_, work_->made.get());
     return made ? core::Result<void>() : core::Result<void>(made.error());
 }
 

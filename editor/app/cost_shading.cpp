@@ -9,6 +9,7 @@
 
 #include "app/cost_table.h"
 #include "lighting/lookup.h"
+#include "lodestar/lobes.glsl"
 #include "scene/gpu_scene.h"
 #include "scene/programs.h"
 
@@ -18,7 +19,7 @@ namespace {
 /// Quick lookups are repeated for so long: the processor has other things to do.
 constexpr double kEnoughMs = 100.0;
 
-/// A sky whose map is as any other to the shader.
+/// A sky whose map is as any other sky's to the shader.
 std::vector<lighting::DayLight> plainSky() {
     lighting::DayLight sky;
     sky.name = "sky";
@@ -57,15 +58,35 @@ CostShading::make(gl::Device& device, std::shared_ptr<lighting::RsrmKernels> ker
     return shading;
 }
 
-gl::Defines CostShading::definesFor(const CostedLookup& lookup) const {
-    const bool map = lookup.layout != nullptr;
-    const bool glossy = lookup.term == lighting::Term::Glossy;
-    gl::Defines defines = {{"LODESTAR_COST_LOOKUP", glossy ? map ? "3" : "1"
-                                                    : map  ? "4"
-                                                           : "2"},
-                           {"LODESTAR_RSRM_LIGHTS", map ? "1" : "0"},
-                           {"LODESTAR_RSRM_LAYOUT", map && lights_.published() ? "1" : "0"}};
-    const scene::RenderSettings settings = settingsOf(lookup);
+plan::EffectPlan CostShading::planned(double exponent) const {
+    plan::PlanInput input;
+    plan::DrawView ball;
+    ball.casts = false;
+    ball.sharpest =
+        static_cast<double>(shader::lodestar_lookupExponent(static_cast<float>(exponent), 0.0f));
+    input.draws = {ball};
+    input.environment.present = false;
+    input.rsrmLights = views_;
+    input.rsrmPublished = lights_.published();
+    input.rsrmGreatestExponent = lights_.layout().greatestExponent;
+    input.rsrmRows = lighting::hasOwnRows(lights_.layout());
+    return plan::plan(input);
+}
+
+gl::Defines CostShading::definesFor(double exponent) const {
+    const bool map = !lights_.empty();
+    const bool glossy = lookup_.term == lighting::Term::Glossy;
+    gl::Defines defines = {{"LODESTAR_COST_LOOKUP", glossy ? map ? "3" : "1" : map ? "4" : "2"}};
+    const plan::EffectPlan plan = planned(exponent);
+    const auto asked = [&](plan::Feature feature) {
+        return plan::has(plan.drawFeatures.front(), feature) ? "1" : "0";
+    };
+    defines.emplace_back("LODESTAR_RSRM_LIGHTS", std::to_string(plan.rsrmLights.size()));
+    defines.emplace_back("LODESTAR_SUNS", std::to_string(plan.suns()));
+    defines.emplace_back("LODESTAR_RSRM_LAYOUT", plan.rsrmPublished ? "1" : "0");
+    defines.emplace_back("LODESTAR_RSRM_ROWS", asked(plan::Feature::RsrmRows));
+    defines.emplace_back("LODESTAR_RSRM_MIRROR", asked(plan::Feature::RsrmMirror));
+    const scene::RenderSettings settings = settingsOf(lookup_);
     const gl::Defines chosen = scene::estimatorDefines(settings.specular, settings.diffuse);
     defines.insert(defines.end(), chosen.begin(), chosen.end());
     return defines;
@@ -90,11 +111,13 @@ core::Result<const gl::Program*> CostShading::program(const gl::Defines& defines
     return &programs_.emplace(defines, std::move(*made)).first->second;
 }
 
-core::Result<void> CostShading::prepareMap(const CostedLookup& lookup) {
-    lights_ = scene::GpuLights(plainSky(), *lookup.layout, kernels_);
-    (void)lights_.describe(12.0);
-    plan::EffectPlan plan;
-    plan.rsrmLights.push_back({0, true, -1, false, true});
+core::Result<void> CostShading::prepare(const std::vector<lighting::DayLight>& lights,
+                                        const lighting::RsrmLayout& layout, double hour) {
+    lookup_ = {};
+    environment_ = {};
+    lights_ = scene::GpuLights(lights, layout, kernels_);
+    views_ = lights_.describe(hour);
+    const plan::EffectPlan plan = planned(1.0);
     if (auto prepared = lights_.prepare(device_, plan); !prepared) {
         return prepared;
     }
@@ -107,12 +130,12 @@ core::Result<void> CostShading::prepareMap(const CostedLookup& lookup) {
 core::Result<std::uint64_t> CostShading::prepare(const CostedLookup& lookup,
                                                  const lighting::Cubemap& base,
                                                  const lighting::PreparedEnvironment* made) {
-    lookup_ = lookup;
     environment_ = {};
     lights_ = {};
+    views_.clear();
     const std::uint64_t before = device_.counters().textureBytes;
     if (lookup.layout != nullptr) {
-        if (auto prepared = prepareMap(lookup); !prepared) {
+        if (auto prepared = prepare(plainSky(), *lookup.layout, 12.0); !prepared) {
             return prepared.error();
         }
     } else {
@@ -127,6 +150,7 @@ core::Result<std::uint64_t> CostShading::prepare(const CostedLookup& lookup,
         environment_.describe(settingsOf(lookup), block);
         frameBlock_.set(block);
     }
+    lookup_ = lookup;
     return device_.counters().textureBytes - before;
 }
 
@@ -172,12 +196,12 @@ core::Result<double> CostShading::timed(const gl::Defines& defines, double expon
 }
 
 core::Result<double> CostShading::slice(double exponent, int rows) {
-    const auto ms = drawn(definesFor(lookup_), exponent, rows);
+    const auto ms = drawn(definesFor(exponent), exponent, rows);
     return ms ? core::Result<double>(*ms / (kTileSide * rows * 1e-6)) : ms;
 }
 
 core::Result<double> CostShading::milliseconds(double exponent, int repeats) {
-    return timed(definesFor(lookup_), exponent, repeats);
+    return timed(definesFor(exponent), exponent, repeats);
 }
 
 core::Result<double> CostShading::lobeMilliseconds(lighting::LobeForm lobes,
@@ -192,8 +216,8 @@ core::Result<double> CostShading::lobeMilliseconds(lighting::LobeForm lobes,
 }
 
 core::Result<double> CostShading::emptyMilliseconds(int repeats) {
-    gl::Defines defines = definesFor(lookup_);
-    defines.front().second = "0";
+    gl::Defines defines = definesFor(1.0);
+    defines.front() = {"LODESTAR_COST_LOOKUP", "0"};
     return timed(defines, 1.0, repeats);
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/cost_estimates.h"
 #include "core/result.h"
@@ -36,6 +37,11 @@ public:
     [[nodiscard]] core::Result<std::uint64_t>
     prepare(const CostedLookup& lookup, const lighting::Cubemap& base,
             const lighting::PreparedEnvironment* made = nullptr);
+    /// The same of all skies and suns that shine at an hour, as a frame is lit by them.
+    /// @param lights as lighting::repaired leaves them  @param layout of their maps  @errors
+    /// NoOpenGl
+    [[nodiscard]] core::Result<void> prepare(const std::vector<lighting::DayLight>& lights,
+                                             const lighting::RsrmLayout& layout, double hour);
     /// Shades by another lookup that reads what the last one prepared: an estimator over the same
     /// mips.
     void use(const CostedLookup& lookup) { lookup_ = lookup; }
@@ -55,12 +61,13 @@ public:
 private:
     explicit CostShading(gl::Device& device);
     [[nodiscard]] core::Result<const gl::Program*> program(const gl::Defines& defines);
-    [[nodiscard]] gl::Defines definesFor(const CostedLookup& lookup) const;
+    [[nodiscard]] gl::Defines definesFor(double exponent) const;
+    /// A frame of a ball under the maps.
+    [[nodiscard]] plan::EffectPlan planned(double exponent) const;
     [[nodiscard]] core::Result<double> timed(const gl::Defines& defines, double exponent,
                                              int repeats);
     /// Milliseconds of one drawing.
     [[nodiscard]] core::Result<double> drawn(const gl::Defines& defines, double exponent, int rows);
-    [[nodiscard]] core::Result<void> prepareMap(const CostedLookup& lookup);
 
     gl::Device& device_;
     gl::Framebuffer target_;
@@ -71,7 +78,8 @@ private:
     scene::UniformBlock<scene::blocks::LodestarRsrmLights> lightBlock_;
     scene::GpuEnvironment environment_;
     std::shared_ptr<lighting::RsrmKernels> kernels_ = std::make_shared<lighting::RsrmKernels>();
-    scene::GpuLights lights_;
+    scene::GpuLights lights_; ///< empty: the environment is read
+    std::vector<plan::RsrmLightView> views_;
     CostedLookup lookup_;
 };
 

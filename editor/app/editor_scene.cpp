@@ -74,7 +74,8 @@ std::string holdsOf(const scene::Node& node) {
 /// A material as its three Blinn-Phong numbers, textures aside.
 ui::MaterialLine lineOf(const io::GltfMaterial& material, std::size_t index) {
     ui::MaterialLine line;
-    line.key = material.name.empty() ? "#" + std::to_string(index) : material.name;
+    line.key =
+        material.name.empty() ? std::string("#").append(std::to_string(index)) : material.name;
     const glm::vec3 base(material.baseColor);
     if (material.blinnPhong) {
         const io::GltfBlinnPhong& given = *material.blinnPhong;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A tile of balls on which one lookup alone is shaded, to be timed.
-//   LODESTAR_COST_LOOKUP  0 nothing, 1 glossy, 2 diffuse, 3 glossy of a map, 4 diffuse of a map,
+//   LODESTAR_COST_LOOKUP  0 nothing, 1 glossy, 2 diffuse, 3 glossy of all maps, 4 diffuse of them,
 //                         5 direct light of LODESTAR_COST_LIGHTS lights
 #include "host/blocks.glsl"
 #include "lodestar/sh9.glsl"
@@ -9,7 +9,9 @@
 #include "host/hooks.glsl"
 #if LODESTAR_RSRM_LIGHTS
 #include "lodestar/rsrm.glsl"
+#include "lodestar/sun.glsl"
 #include "host/rsrm_hooks.glsl"
+#include "host/rsrm_lights.glsl"
 #endif
 
 uniform vec2 uTile; // pixels a side; Blinn-Phong exponent
@@ -43,13 +45,15 @@ void main() {
 #elif LODESTAR_COST_LOOKUP == 2
     radiance = lodestar_host_irradiance(0, surface.normal);
 #elif LODESTAR_COST_LOOKUP == 3
-    LodestarLookup lookup = LODESTAR_RSRM_LAYOUT == LODESTAR_RSRM_PUBLISHED
-                                ? lodestar_lookupAsGiven(surface.normal, surface.view, surface.exponent)
-                                : lodestar_lookup(surface.normal, surface.view, surface.exponent);
-    LodestarRsrm map = rsrmLight(0);
-    radiance = lodestar_rsrm(map, lookup.direction, lodestar_rsrmRow(map, lookup.exponent));
+    LodestarLookup lookup = rsrmLookup(surface);
+    float row = rsrmRow(lookup.exponent);
+    for (int i = 0; i < LODESTAR_RSRM_LIGHTS; ++i) {
+        radiance += rsrmGlossy(i, surface, lookup, row);
+    }
 #elif LODESTAR_COST_LOOKUP == 4
-    radiance = lodestar_rsrmLambert(rsrmLight(0), surface.normal);
+    for (int i = 0; i < LODESTAR_RSRM_LIGHTS; ++i) {
+        radiance += lodestar_rsrmLambert(rsrmLight(i), surface.normal);
+    }
 #elif LODESTAR_COST_LOOKUP == 5
     radiance = vec3(0.0);
     vec3 light = vec3(uTile.y / (uTile.y + 1.0), 0.3, 1.0); // known to no compiler

@@ -54,22 +54,13 @@ void main() {
 const char* kLights = R"(
 void main() {
     LodestarSurface s = here();
-    LodestarLookup lookup = LODESTAR_RSRM_LAYOUT == LODESTAR_RSRM_PUBLISHED
-                                ? lodestar_lookupAsGiven(s.normal, s.view, s.exponent)
-                                : lodestar_lookup(s.normal, s.view, s.exponent);
-    float row = lodestar_rsrmRow(rsrmLight(0), lookup.exponent);
+    LodestarLookup lookup = rsrmLookup(s);
+    float row = rsrmRow(lookup.exponent);
     vec3 lambert = vec3(0.0);
     vec3 glossy = vec3(0.0);
     for (int i = 0; i < LODESTAR_RSRM_LIGHTS; ++i) {
-        LodestarRsrm map = rsrmLight(i);
-        lambert += lodestar_rsrmLambert(map, s.normal);
-        if (SUN_IS_ROUND || i > 0) {
-            glossy += lodestar_rsrm(map, lookup.direction, row);
-        } else {
-            LodestarSunLookup sun = lodestar_sunLookup(s.normal, s.view, s.exponent, lookup.direction,
-                                                       lookup.exponent, map.axis, rsrmScale[i].z);
-            glossy += lodestar_rsrmAt(map, sun.halfChord, lodestar_rsrmRow(map, sun.exponent));
-        }
+        lambert += lodestar_rsrmLambert(rsrmLight(i), s.normal);
+        glossy += rsrmGlossy(i, s, lookup, row);
     }
     oColor = vec4(lodestar_reflected(s, lambert, glossy), 1.0);
 })";
@@ -92,10 +83,11 @@ std::string fragmentText(const Variant& variant) {
         {"LODESTAR_RSRM_LIGHTS", std::to_string(std::max(variant.lights, std::size_t{1}))},
         {"LODESTAR_RSRM_LAYOUT", variant.gpu.published() ? "1" : "0"},
         {"LODESTAR_RSRM_MIRROR", variant.mirror ? "1" : "0"},
-        {"SUN_IS_ROUND", variant.round || variant.gpu.published() ? "true" : "false"}};
+        {"LODESTAR_SUNS", variant.round ? "0" : "1"}};
     std::string text = "#version 330 core\n";
-    for (const char* file : {"host/blocks.glsl", "lodestar/environment.glsl", "lodestar/rsrm.glsl",
-                             "lodestar/sun.glsl", "host/rsrm_hooks.glsl"}) {
+    for (const char* file :
+         {"host/blocks.glsl", "lodestar/environment.glsl", "lodestar/rsrm.glsl",
+          "lodestar/sun.glsl", "host/rsrm_hooks.glsl", "host/rsrm_lights.glsl"}) {
         const std::string part = *gl::assembleShader(file, 330, defines);
         text += part.substr(part.find('\n') + 1);
     }
