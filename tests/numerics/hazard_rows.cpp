@@ -10,6 +10,7 @@
 #include "lodestar/rsrm.glsl"
 #include "lodestar/sg.glsl"
 #include "lodestar/sh9.glsl"
+#include "lodestar/sun.glsl"
 #include "lodestar/taps.glsl"
 
 namespace lodestar::shader {
