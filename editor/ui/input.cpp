@@ -15,6 +15,7 @@ struct Held {
     std::bitset<kKeyCount> keys;
     std::bitset<5> buttons;
     bool text = false, wheel = false;
+    bool acts = false; ///< something that the modifiers change the meaning of
 };
 
 bool apply(const KeyInput& input, ImGuiIO& io, Held& held) {
@@ -22,11 +23,20 @@ bool apply(const KeyInput& input, ImGuiIO& io, Held& held) {
     if (held.keys[index] || held.text) {
         return false;
     }
+    const bool shift = input.key == Key::Shift ? input.down : input.shift;
+    const bool control = input.key == Key::Control ? input.down : input.control;
+    const bool alt = input.key == Key::Alt ? input.down : input.alt;
+    const bool modifies = shift != io.KeyShift || control != io.KeyCtrl || alt != io.KeyAlt;
+    if (modifies && held.acts) {
+        return false; // the frame's keys and clicks were with those before
+    }
+    held.acts = held.acts ||
+                (input.key != Key::Shift && input.key != Key::Control && input.key != Key::Alt);
     held.keys[index] = true;
     io.KeysDown[index] = input.down;
-    io.KeyShift = input.key == Key::Shift ? input.down : input.shift;
-    io.KeyCtrl = input.key == Key::Control ? input.down : input.control;
-    io.KeyAlt = input.key == Key::Alt ? input.down : input.alt;
+    io.KeyShift = shift;
+    io.KeyCtrl = control;
+    io.KeyAlt = alt;
     return true;
 }
 
@@ -41,7 +51,7 @@ bool apply(const ButtonInput& input, ImGuiIO& io, Held& held) {
     if (held.buttons[index]) {
         return false;
     }
-    held.buttons[index] = true;
+    held.buttons[index] = held.acts = true;
     io.MouseDown[index] = input.down;
     return true;
 }
@@ -60,7 +70,7 @@ bool apply(const WheelInput& input, ImGuiIO& io, Held& held) {
     if (held.buttons.any()) {
         return false;
     }
-    held.wheel = true;
+    held.wheel = held.acts = true;
     io.MouseWheel += std::isfinite(input.steps) ? std::clamp(input.steps, -50.0f, 50.0f) : 0.0f;
     return true;
 }

@@ -322,6 +322,26 @@ TEST(Input, WhatOneFrameCannotTellApartTakesTwo) {
     ImGui::DestroyContext();
 }
 
+TEST(Input, AModifierLetGoInTheFrameOfItsKeyStillHoldsForIt) {
+    for (const Input& held :
+         {Input(KeyInput{Key::S, true, false, true, false}), Input(ButtonInput{0, true})}) {
+        ImGui::CreateContext();
+        ImGuiIO& io = ImGui::GetIO();
+        InputQueue queue;
+        queue.push(KeyInput{Key::Control, true, false, false, false});
+        queue.feed(io);
+        queue.push(held);
+        queue.push(KeyInput{Key::Control, false, false, true, false});
+        queue.feed(io);
+        EXPECT_TRUE(io.KeyCtrl);
+        EXPECT_TRUE(io.KeysDown[static_cast<int>(Key::S)] || io.MouseDown[0]);
+        queue.feed(io);
+        EXPECT_FALSE(io.KeyCtrl);
+        EXPECT_TRUE(queue.empty());
+        ImGui::DestroyContext();
+    }
+}
+
 TEST(Strip, PlacesAndDegreesGoBothWays) {
     for (const auto kind : {lighting::LightKind::Sky, lighting::LightKind::Sun}) {
         for (int i = 0; i <= 100; ++i) {
