@@ -124,6 +124,15 @@ void Model::dropLastPart() {
     }
 }
 
+bool Model::cancel(MergeToken token) {
+    if (token == 0 || token != openToken_) {
+        return false;
+    }
+    const bool done = undo();
+    steps_.resize(done_);
+    return done;
+}
+
 bool Model::undo() {
     openToken_ = 0;
     if (done_ == 0) {

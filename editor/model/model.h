@@ -68,6 +68,10 @@ public:
     /// A token that none had.
     [[nodiscard]] MergeToken newToken() { return ++lastToken_; }
 
+    /// Takes back the step of a drag that goes on; it cannot be redone.
+    /// @return false where the last step is not of this token
+    bool cancel(MergeToken token);
+
     /// One step back or forth. @return false where there is none
     bool undo();
     bool redo();

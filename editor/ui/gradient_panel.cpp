@@ -112,6 +112,9 @@ void drawShapeButtons(Studio& studio, model::Id key, lighting::LightKind kind) {
 void drawToggles(Studio& studio) {
     ImGui::Checkbox("Brush", &studio.view.brush);
     studio.mark("Brush");
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("paints along the strip (B)");
+    }
     ImGui::SameLine();
     ImGui::Checkbox("Snap", &studio.view.snapping);
     studio.mark("Snap");
@@ -122,6 +125,9 @@ void drawToggles(Studio& studio) {
     ImGui::SameLine();
     ImGui::Checkbox("False colours", &studio.view.falseColor);
     studio.mark("False colours");
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("radiance on a scale of 16 stops, here and in the day (V)");
+    }
     ImGui::SameLine();
     ImGui::Checkbox("Pick", &studio.view.picking);
     studio.mark("Pick");
@@ -161,6 +167,7 @@ void GradientPanel::draw(Studio& studio, model::Id key) {
     heading("Gradient");
     strip_.draw(studio, key);
     if (strip_.dragsAway()) {
+        ImGui::AlignTextToFramePadding(); // as high as what stands here else
         ImGui::TextColored(kWarning, "Let go to delete.");
     } else {
         drawToggles(studio);

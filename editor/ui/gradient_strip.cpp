@@ -226,7 +226,8 @@ void GradientStrip::drag(Studio& studio, const Frame& frame, double at) {
     const float away = std::max(frame.low.y - io.MousePos.y,
                                 io.MousePos.y - frame.bottom() - kHandleHeight * frame.scale);
     moved_ = moved_ || ImGui::IsMouseDragging(ImGuiMouseButton_Left, 2.0f);
-    away_ = moved_ && away > kAwayPixels * frame.scale && frame.stops.size() >= grabbed_.size() + 2;
+    away_ = moved_ && !grabbed_.empty() && away > kAwayPixels * frame.scale &&
+            frame.stops.size() >= grabbed_.size() + 2;
     const bool rests = io.MouseDelta.x == 0.0f && io.MouseDelta.y == 0.0f && keys_ == heldKeys();
     keys_ = heldKeys();
     if (!moved_ || grabbed_.empty() || rests) {
@@ -243,7 +244,9 @@ void GradientStrip::drag(Studio& studio, const Frame& frame, double at) {
 }
 
 void GradientStrip::release(Studio& studio, const Frame&) {
-    if (away_) {
+    if (studio.cancelled) {
+        // its stops are where they were
+    } else if (away_) {
         model::DeleteStops gone;
         for (const model::StopMove& from : grabbed_) {
             gone.stops.push_back(from.stop);

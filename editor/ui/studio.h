@@ -220,6 +220,7 @@ public:
 
     std::map<std::string, Mark> marks;
     std::deque<LogLine> log;
+    bool cancelled = false; ///< Escape has just taken back what a widget did while it was held
 
 private:
     friend class Workspace;

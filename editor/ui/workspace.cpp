@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
 #include "lighting/day.h"
@@ -80,6 +81,7 @@ Wishes Workspace::draw(model::Model& model, const Surroundings& surroundings,
                        const std::function<void(const Panels&)>& contents) {
     Studio studio(model, surroundings, view_);
     studio.log = std::move(log_);
+    answerCancel(studio);
     if (!ImGui::IsAnyItemActive()) {
         token_ = 0; // whatever was held has been let go
     }
@@ -108,6 +110,22 @@ Wishes Workspace::draw(model::Model& model, const Surroundings& surroundings,
     }
     keep();
     return studio.wishes;
+}
+
+/// Escape takes back what is dragged. Dear ImGui has let go of it already, but for a text, which
+/// answers to Escape by itself.
+void Workspace::answerCancel(Studio& studio) const {
+    const ImGuiContext& context = *ImGui::GetCurrentContext();
+    const bool held =
+        context.ActiveIdPreviousFrame == holder_ && context.InputTextState.ID != holder_;
+    if (token_ == 0 || !held || !studio.pressed(Key::Escape)) {
+        return;
+    }
+    studio.cancelled = true;
+    (void)studio.model.cancel(token_);
+    if (context.ActiveId == holder_) { // a host without keyboard navigation
+        ImGui::ClearActiveID();
+    }
 }
 
 void Workspace::say(std::string text, bool isError) {
@@ -321,6 +339,7 @@ void Workspace::drawHelp(const Studio& studio) {
         row("middle drag, Shift + left drag", "pan");
         row("right drag, with W A S D Q E", "look around and fly; Shift is faster");
         row("wheel", "nearer, farther");
+        row("Esc", "in a drag: cancel it");
         row("Tab, arrows, Space", "reach every field without the pointer");
         row("Ctrl + click, Enter", "type a number");
         ImGui::EndTable();

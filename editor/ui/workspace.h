@@ -74,6 +74,7 @@ private:
     void drawQuestion(Studio& studio);
     void drawHelp(const Studio& studio);
     void answerKeys(Studio& studio);
+    void answerCancel(Studio& studio) const;
     void perform(Studio& studio, const Binding& binding);
     bool performOnGradient(Studio& studio, const Binding& binding);
 

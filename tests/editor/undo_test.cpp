@@ -143,6 +143,22 @@ TEST(Undo, MergingEndsWithTheTokenAStepBackAndASave) {
     EXPECT_EQ(model.undoCount(), 7U);
 }
 
+TEST(Undo, ADragThatIsCancelledIsNoStepAndCannotBeRedone) {
+    Model model = sampleModel();
+    did(model, AddStop{keyId(model), 50.0});
+    const std::string before = textOf(model);
+    const MergeToken drag = model.newToken();
+    EXPECT_FALSE(model.cancel(drag)) << "it has done nothing yet";
+    did(model, MoveStops{{{stopId(model, 1), 40.0}}}, drag);
+    EXPECT_TRUE(model.cancel(drag));
+    EXPECT_EQ(textOf(model), before);
+    EXPECT_EQ(model.undoCount(), 1U);
+    EXPECT_EQ(model.redoCount(), 0U);
+    EXPECT_FALSE(model.cancel(drag)) << "once";
+    EXPECT_FALSE(model.cancel(0)) << "a step of its own is no drag";
+    EXPECT_EQ(textOf(model), before);
+}
+
 TEST(Undo, ARefusedCommandOfADragLeavesTheLastOne) {
     Model model = sampleModel();
     const MergeToken drag = model.newToken();

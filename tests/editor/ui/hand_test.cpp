@@ -91,5 +91,84 @@ TEST_F(Hand, AFastStrokePaintsTheWayBetween) {
     EXPECT_LT(model::radianceAt(gradient(), kind, {&beside, 1}).front().r, 6.0);
 }
 
+TEST_F(Hand, ADragThatHoldsNothingDeletesNothing) {
+    moveTo("ramp", 0.8f);
+    const Mark& ramp = workspace_.marks().at("ramp");
+    const float x = ramp.low.x + 0.8f * (ramp.high.x - ramp.low.x);
+    const float below = ramp.high.y + 8.0f; // among the handles, where there is none
+    give(MotionInput{x, below});
+    give(ButtonInput{0, true});
+    give(MotionInput{x, below + 60.0f});
+    give(MotionInput{x, below + 200.0f});
+    give(ButtonInput{0, false});
+    frame();
+    EXPECT_EQ(model_.undoCount(), 0u);
+    EXPECT_TRUE(workspace_.log().empty()) << workspace_.log().back().text;
+}
+
+TEST_F(Hand, EscapeCancelsADrag) {
+    const document::Document before = model_.document();
+    const auto escape = [&] {
+        give(KeyInput{Key::Escape, true, false, false, false});
+        give(KeyInput{Key::Escape, false, false, false, false});
+    };
+    for (const float away : {0.0f, 200.0f}) { // along the strip, and off it to be deleted
+        SCOPED_TRACE(away);
+        const ImVec2 handle = workspace_.marks().at("stop 1").center();
+        give(MotionInput{handle.x, handle.y});
+        give(ButtonInput{0, true});
+        give(MotionInput{handle.x + 20.0f, handle.y});
+        give(MotionInput{handle.x + 40.0f, handle.y + away});
+        EXPECT_FALSE(model_.document() == before);
+        escape();
+        EXPECT_TRUE(model_.document() == before);
+        give(MotionInput{handle.x + 60.0f, handle.y});
+        give(ButtonInput{0, false});
+        EXPECT_TRUE(model_.document() == before) << "the drag goes on after it was cancelled";
+        EXPECT_EQ(model_.undoCount(), 0u);
+        EXPECT_EQ(model_.redoCount(), 0u);
+    }
+    moveTo("tint");
+    give(ButtonInput{0, true});
+    moveTo("tint", 0.7f);
+    EXPECT_EQ(model_.undoCount(), 1u);
+    escape();
+    give(ButtonInput{0, false});
+    EXPECT_TRUE(model_.document() == before) << "a number's drag";
+}
+
+TEST_F(Hand, EscapeTakesBackNoStepThatWasDoneBefore) {
+    const ImVec2 handle = workspace_.marks().at("stop 1").center();
+    const float there = handle.x + 30.0f;
+    give(MotionInput{handle.x, handle.y});
+    give(ButtonInput{0, true});
+    give(MotionInput{handle.x + 15.0f, handle.y});
+    give(MotionInput{there, handle.y});
+    give(ButtonInput{0, false});
+    const document::Document moved = model_.document();
+    give(ButtonInput{0, true});
+    give(MotionInput{there + 20.0f, handle.y});
+    EXPECT_EQ(model_.undoCount(), 2u);
+    give(MotionInput{there, handle.y}); // where it began: no step
+    EXPECT_EQ(model_.undoCount(), 1u);
+    give(KeyInput{Key::Escape, true, false, false, false});
+    give(ButtonInput{0, false});
+    EXPECT_EQ(model_.undoCount(), 1u);
+    EXPECT_TRUE(model_.document() == moved);
+}
+
+TEST_F(Hand, WhatADragSaysOfItselfMovesNothing) {
+    const ImVec2 handle = workspace_.marks().at("stop 1").center();
+    give(MotionInput{handle.x, handle.y});
+    give(ButtonInput{0, true});
+    give(MotionInput{handle.x + 20.0f, handle.y});
+    const float before = workspace_.marks().at("Reverse").low.y;
+    give(MotionInput{handle.x + 20.0f, handle.y + 200.0f});
+    frame();
+    EXPECT_FALSE(workspace_.marks().contains("Brush")) << "nothing is said";
+    EXPECT_EQ(workspace_.marks().at("Reverse").low.y, before);
+    give(ButtonInput{0, false});
+}
+
 } // namespace
 } // namespace lodestar::ui
