@@ -101,7 +101,7 @@ double diffuseError(const core::Image& panorama, const lighting::PhotographedLig
 std::string photographAdvice(double residual, double error) {
     if (error > 0.15) {
         return "much of this sky's light lies where no symmetric map has it: light the scene by "
-               "the panorama itself (--environment), as a cube map";
+               "the panorama itself, as its environment";
     }
     return residual > 0.1 ? "diffuse and rough surfaces are lit as by the panorama; what polished "
                             "ones mirror is not there"

@@ -73,7 +73,20 @@ struct Frame {
     }
 };
 
-void drawAxes(ImDrawList& list, const Frame& frame) {
+std::string tickText(double error) {
+    return formatted("%g", 100.0 * error) + " %";
+}
+
+/// Room left of the plot for the numbers of its errors.
+float marginOf(const LogAxis& errors) {
+    float widest = 0.0f;
+    for (const double error : errors.ticks()) {
+        widest = std::max(widest, ImGui::CalcTextSize(tickText(error).c_str()).x);
+    }
+    return widest + 0.6f * ImGui::GetFontSize();
+}
+
+void drawAxes(Studio& studio, ImDrawList& list, const Frame& frame) {
     const ImU32 line = ImGui::GetColorU32(ImGuiCol_Border);
     const ImU32 text = ImGui::GetColorU32(kDimText);
     const float em = ImGui::GetFontSize();
@@ -87,10 +100,11 @@ void drawAxes(ImDrawList& list, const Frame& frame) {
     for (const double error : frame.error.ticks()) {
         const float y = frame.high.y - frame.error.place(error) * (frame.high.y - frame.low.y);
         list.AddLine({frame.low.x, y}, {frame.high.x, y}, line);
-        const std::string label = formatted("%g", 100.0 * error) + " %";
-        list.AddText(
-            {frame.low.x - ImGui::CalcTextSize(label.c_str()).x - 0.4f * em, y - 0.5f * em}, text,
-            label.c_str());
+        const std::string label = tickText(error);
+        const ImVec2 size = ImGui::CalcTextSize(label.c_str());
+        const ImVec2 low{frame.low.x - size.x - 0.4f * em, y - 0.5f * em};
+        list.AddText(low, text, label.c_str());
+        studio.mark("plot error " + label, low, {low.x + size.x, low.y + size.y});
     }
     list.AddText({frame.high.x + 0.4f * em, frame.high.y - 0.5f * em}, text, "ms");
 }
@@ -145,6 +159,7 @@ void drawNames(Studio& studio, const Frame& frame) {
         if (away > 1.2f * em) {
             list.AddLine(at, nearest, ImGui::GetColorU32(kDimText));
         }
+        list.AddRectFilled(places[i]->low, places[i]->high, ImGui::GetColorU32(ImGuiCol_WindowBg));
         list.AddText(places[i]->low, ImGui::GetColorU32(lines[i]->used ? kAccent : kDimText),
                      lines[i]->name.c_str());
         studio.mark("plot name " + lines[i]->name, places[i]->low, places[i]->high);
@@ -159,7 +174,6 @@ void drawPlot(Studio& studio, float width) {
     ImGui::Dummy({width, height});
     studio.mark("accuracy plot");
     Frame frame;
-    frame.low = {corner.x + 3.6f * em, corner.y + 0.4f * em};
     frame.high = {corner.x + width - 2.2f * em, corner.y + height - 1.5f * em};
     std::vector<const EstimateLine*> front;
     for (const EstimateLine& line : lines) {
@@ -173,8 +187,9 @@ void drawPlot(Studio& studio, float width) {
     }
     frame.ms.settle();
     frame.error.settle();
+    frame.low = {corner.x + marginOf(frame.error), corner.y + 0.4f * em};
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    drawAxes(list, frame);
+    drawAxes(studio, list, frame);
     drawFront(list, frame, std::move(front));
     for (const EstimateLine& line : lines) {
         if (!measured(line)) {
@@ -244,6 +259,7 @@ void drawNumbers(Studio& studio, bool scrolls) {
             ImGui::TableNextColumn();
             ImGui::TextColored(color, "%s", text.c_str());
         }
+        studio.mark("fetches of " + line.name);
     }
     ImGui::EndTable();
 }
@@ -274,7 +290,7 @@ void drawAccuracyPanel(Studio& studio) {
     // Where there is no room beside the plot the table stands below it, and the tab scrolls.
     const float room = ImGui::GetContentRegionAvail().x;
     const float em = ImGui::GetFontSize();
-    constexpr float kTable = 26.0f; // em, of its widest numbers
+    constexpr float kTable = 28.5f; // em, of its widest numbers
     const bool beside = room >= (kTable + 12.0f) * em;
     drawPlot(studio, beside ? std::min(0.42f * room, room - kTable * em) : room);
     if (beside) {

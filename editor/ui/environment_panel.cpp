@@ -16,7 +16,7 @@ void drawEnvironmentPanel(Studio& studio) {
     const std::optional<document::Environment>& environment = studio.model.document().environment;
     label("source");
     std::string source = environment ? environment->source : "";
-    const bool entered = ImGui::InputTextWithHint("##source", "none; a picture beside the document",
+    const bool entered = ImGui::InputTextWithHint("##source", "none; a file beside the document",
                                                   &source, ImGuiInputTextFlags_EnterReturnsTrue);
     studio.mark("environment source");
     if (entered && source.empty()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "model/presets.h"
 #include "model/ramp.h"
@@ -109,6 +110,42 @@ void drawShapeButtons(Studio& studio, model::Id key, lighting::LightKind kind) {
     }
 }
 
+/// What radiance the false colours stand for.
+void drawFalseColorScale(Studio& studio) {
+    constexpr double kHalf = 8.0; // stops to either side, as falseShownColor
+    constexpr int kColumns = 128, kNumbers = 5;
+    const double exposure = std::exp2(studio.view.exposure);
+    const float line = ImGui::GetTextLineHeight();
+    const ImVec2 low = ImGui::GetCursorScreenPos();
+    const float width = std::max(ImGui::GetContentRegionAvail().x, 1.0f);
+    ImGui::Dummy({width, 1.7f * line});
+    studio.mark("false colour scale");
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const auto radianceAt = [&](double share) {
+        return std::exp2(2.0 * kHalf * (share - 0.5)) / exposure;
+    };
+    for (int i = 0; i < kColumns; ++i) {
+        const auto edge = [&](int column) {
+            return low.x + width * static_cast<float>(column) / static_cast<float>(kColumns);
+        };
+        list.AddRectFilled({edge(i), low.y}, {edge(i + 1), low.y + 0.5f * line},
+                           falseShownColor(glm::dvec3(radianceAt((i + 0.5) / kColumns)), exposure));
+    }
+    for (int i = 0; i < kNumbers; ++i) {
+        const double share = static_cast<double>(i) / (kNumbers - 1);
+        char text[24];
+        std::snprintf(text, sizeof text, "%.3g", radianceAt(share));
+        const float size = ImGui::CalcTextSize(text).x;
+        const float x = low.x + static_cast<float>(share) * width;
+        list.AddText(
+            {std::clamp(x - 0.5f * size, low.x, low.x + width - size), low.y + 0.6f * line},
+            ImGui::GetColorU32(kDimText), text);
+    }
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("radiance, the mean of its channels");
+    }
+}
+
 void drawToggles(Studio& studio) {
     ImGui::Checkbox("Brush", &studio.view.brush);
     studio.mark("Brush");
@@ -166,6 +203,9 @@ void GradientPanel::draw(Studio& studio, model::Id key) {
     }
     heading("Gradient");
     strip_.draw(studio, key);
+    if (studio.view.falseColor) {
+        drawFalseColorScale(studio);
+    }
     if (strip_.dragsAway()) {
         ImGui::AlignTextToFramePadding(); // as high as what stands here else
         ImGui::TextColored(kWarning, "Let go to delete.");

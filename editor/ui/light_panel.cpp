@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/trigonometric.hpp>
 
@@ -9,6 +11,23 @@
 
 namespace lodestar::ui {
 namespace {
+
+/// "118, 28 April", as a format for the number. @param day of the year, [1, 366]; the last of a
+/// leap year is shown as another year's
+std::string dateFormat(int day) {
+    constexpr std::pair<const char*, int> kMonths[] = {
+        {"January", 31},   {"February", 28}, {"March", 31},    {"April", 30},
+        {"May", 31},       {"June", 30},     {"July", 31},     {"August", 31},
+        {"September", 30}, {"October", 31},  {"November", 30}, {"December", 31}};
+    int left = std::clamp(day, 1, 365);
+    for (const auto& [name, days] : kMonths) {
+        if (left <= days) {
+            return "%.0f, " + std::to_string(left) + " " + name;
+        }
+        left -= days;
+    }
+    return "%.0f";
+}
 
 void drawPath(Studio& studio, model::Id id, lighting::SunPath path) {
     const glm::dvec2 north = degreesOfAxis(path.north);
@@ -21,7 +40,8 @@ void drawPath(Studio& studio, model::Id id, lighting::SunPath path) {
     }
     studio.mark("latitude");
     label("day of year");
-    if (const auto value = numberField("##day", path.dayOfYear, 0.2f, 1.0, 366.0, "%.0f")) {
+    if (const auto value = numberField("##day", path.dayOfYear, 0.2f, 1.0, 366.0,
+                                       dateFormat(path.dayOfYear).c_str())) {
         path.dayOfYear = static_cast<int>(std::lround(*value));
         changed = true;
     }

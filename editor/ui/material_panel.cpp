@@ -98,11 +98,16 @@ const EstimateLine* lineOf(const Studio& studio, const std::string& name) {
     return found != lines.end() ? &*found : nullptr;
 }
 
-/// "2.1 %, 34 ms a megapixel".
-std::string measuredText(const EstimateLine* line) {
-    return line == nullptr
-               ? ""
-               : percentText(line->error) + ", " + millisecondsText(line->ms) + " a megapixel";
+/// "error 2.1 %, 34 ms a megapixel", in a row that it has from the first.
+void drawMeasured(Studio& studio, const EstimateLine* line, const std::string& of) {
+    label("");
+    const bool known = line != nullptr && line->error && line->ms;
+    elidedText(kDimText,
+               of + (known ? "error " + percentText(line->error) + ", " +
+                                 millisecondsText(line->ms) + " a megapixel"
+                           : std::string("measuring ...")),
+               ImGui::GetContentRegionAvail().x);
+    studio.mark("measured");
 }
 
 void drawChoice(Studio& studio, const std::string& name, bool chosen,
@@ -131,10 +136,10 @@ void drawEstimator(Studio& studio, const MaterialLine& material,
         label("estimator");
         ImGui::PushTextWrapPos();
         ImGui::TextColored(kDimText,
-                           "Skies and suns are read from their own maps: no choice here. %s",
-                           measuredText(lineOf(studio, "rsrm")).c_str());
+                           "Skies and suns are read from their own maps: no choice here.");
         ImGui::PopTextWrapPos();
         studio.mark("no estimator");
+        drawMeasured(studio, lineOf(studio, "rsrm"), {});
         return;
     }
     label("estimator");
@@ -151,12 +156,11 @@ void drawEstimator(Studio& studio, const MaterialLine& material,
         }
         ImGui::EndCombo();
     }
-    label("");
     const auto used = std::find_if(accuracy.lines.begin(), accuracy.lines.end(),
                                    [](const EstimateLine& line) { return line.used; });
     const std::string worst = names.size() > 1 ? accuracy.material + ": " : "";
-    if (used != accuracy.lines.end()) {
-        ImGui::TextColored(kDimText, "%s%s", worst.c_str(), measuredText(&*used).c_str());
+    if (!accuracy.material.empty()) {
+        drawMeasured(studio, used != accuracy.lines.end() ? &*used : nullptr, worst);
     }
 }
 

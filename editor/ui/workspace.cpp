@@ -220,7 +220,8 @@ void Workspace::drawPanels(Studio& studio, float top) {
     beginPanel("Scene", 0.0f, top, left, size.y);
     drawScenePanel(studio);
     ImGui::End();
-    beginPanel("Properties", right, top, size.x, size.y);
+    // Its scrollbar always has its place: what comes and goes below moves no strip under a pointer.
+    beginPanel("Properties", right, top, size.x, size.y, ImGuiWindowFlags_AlwaysVerticalScrollbar);
     drawLightPanel(studio);
     gradient_.draw(studio, studio.chosenKey());
     drawProbePanel(studio);
