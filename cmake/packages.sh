@@ -10,7 +10,7 @@ LODESTAR_PACKAGES_build="cmake ninja-build g++ pkg-config ca-certificates
 # OpenSceneGraph is a host that is tested; blender-data holds the panoramas that accuracy is measured on; the viewer's window is tested on a
 # virtual display by synthetic input (xvfb to imagemagick).
 LODESTAR_PACKAGES_test="libgtest-dev librapidcheck-dev clang-format-14 blender-data python3-jsonschema libopenscenegraph-dev
-    xvfb xauth xdotool openbox imagemagick gnuplot-nox"
+    xvfb xauth x11-utils xdotool openbox imagemagick gnuplot-nox"
 LODESTAR_PACKAGES_bench="libbenchmark-dev libfilament-tools"
 LODESTAR_PACKAGES_long="clang-14 clang-tidy-14"
 

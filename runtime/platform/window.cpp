@@ -218,7 +218,8 @@ core::Result<Window> Window::create(const std::string& title, int width, int hei
         glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, debug);
         glfwWindowHint(GLFW_DEPTH_BITS, 0);
         glfwWindowHint(GLFW_STENCIL_BITS, 0);
-        glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE); // until it fits
+        glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE); // as large to the eye on a dense display
+        glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);         // until it fits
         glfwWindowHintString(GLFW_X11_CLASS_NAME, "lodestar");
         glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "lodestar");
         state->window = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);

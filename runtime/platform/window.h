@@ -140,8 +140,8 @@ using Event = std::variant<KeyEvent, TextEvent, ButtonEvent, MotionEvent, WheelE
 /// driver has it. One window at a time, on one thread.
 class Window {
 public:
-    /// @param width @param height of the content, screen coordinates, at least 1; less where the
-    /// primary display's work area is smaller
+    /// @param width @param height of the content, screen coordinates, at least 1; more on a dense
+    /// display, by its content scale; less where the primary display's work area is smaller
     /// @errors NoOpenGl in one sentence: no display server, or no such OpenGL on it
     [[nodiscard]] static core::Result<Window> create(const std::string& title, int width,
                                                      int height);

@@ -117,9 +117,9 @@ inline std::string missingPrograms() {
     if (required != nullptr && std::string(required) == "1") {
         return {};
     }
-    for (const char* program : {"Xvfb", "xdotool", "openbox", "import"}) {
+    for (const char* program : {"Xvfb", "xprop", "xdotool", "openbox", "import"}) {
         if (output(std::string("command -v ") + program).empty()) {
-            return std::string("needs Xvfb, openbox, xdotool and ImageMagick: no ") + program;
+            return std::string("needs Xvfb, xprop, openbox, xdotool and ImageMagick: no ") + program;
         }
     }
     return {};

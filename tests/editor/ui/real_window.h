@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <future>
@@ -28,6 +29,13 @@ public:
     RealWindow(const RealWindow&) = delete;
     RealWindow& operator=(const RealWindow&) = delete;
 
+    /// As a desktop tells how dense its screen is, before the program starts. @param dpi 96: scale
+    /// 1
+    [[nodiscard]] bool setDensity(int dpi) {
+        return display_.isReady() &&
+               output("xprop -root -f RESOURCE_MANAGER 8s -set RESOURCE_MANAGER 'Xft.dpi: " +
+                      std::to_string(dpi) + "\n' && echo set") == "set\n";
+    }
     /// Starts the program and waits for its window.
     [[nodiscard]] bool open() {
         if (!display_.isReady()) {
@@ -75,9 +83,15 @@ public:
     void keep(const std::string& path) {
         output("import -window " + window_ + " -depth 8 png24:" + path);
     }
-    /// Its size, as xdotool writes it.
-    [[nodiscard]] std::string geometry() {
-        return output("xdotool getwindowgeometry --shell " + window_);
+    /// Its width and height, pixels of the screen.
+    [[nodiscard]] std::array<int, 2> size() {
+        const std::string told = output("xdotool getwindowgeometry --shell " + window_);
+        std::array<int, 2> size{};
+        const std::size_t at = told.find("WIDTH=");
+        EXPECT_TRUE(at != std::string::npos &&
+                    std::sscanf(told.c_str() + at, "WIDTH=%d HEIGHT=%d", &size[0], &size[1]) == 2)
+            << told;
+        return size;
     }
 
     /// As a keyboard's, not sent to the window: the modifiers are then the server's.

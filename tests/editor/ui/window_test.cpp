@@ -261,11 +261,7 @@ TEST(Editor, ItsWindowFitsASmallScreen) {
     ASSERT_TRUE(window.open());
     window.rest();
     // What is seen of it is all of it: a part that the screen does not have is in no picture.
-    int width = 0, height = 0;
-    const std::string size = window.geometry();
-    const std::size_t at = size.find("WIDTH=");
-    ASSERT_NE(at, std::string::npos) << size;
-    ASSERT_EQ(std::sscanf(size.c_str() + at, "WIDTH=%d HEIGHT=%d", &width, &height), 2) << size;
+    const auto [width, height] = window.size();
     const core::Image seen = window.shown();
     EXPECT_EQ(seen.width(), width);
     EXPECT_EQ(seen.height(), height);
@@ -276,6 +272,23 @@ TEST(Editor, ItsWindowFitsASmallScreen) {
     std::filesystem::create_directories("editor-screenshots");
     window.keep("editor-screenshots/small-screen.png");
     EXPECT_EQ(window.close().status, 0);
+}
+
+TEST(Editor, ItsWindowIsAsLargeToTheEyeOnADenseScreen) {
+    if (const std::string missing = missingPrograms(); !missing.empty()) {
+        GTEST_SKIP() << missing;
+    }
+    const TemporaryFolder folder;
+    std::array<int, 2> sizes[2];
+    for (const int scale : {1, 2}) {
+        RealWindow window(folder, folder.file("sky.lodestar.json"), "3840x1920");
+        ASSERT_TRUE(window.setDensity(96 * scale));
+        ASSERT_TRUE(window.open());
+        sizes[scale - 1] = window.size();
+        EXPECT_EQ(window.close().status, 0);
+    }
+    EXPECT_EQ(sizes[1][0], 2 * sizes[0][0]);
+    EXPECT_EQ(sizes[1][1], 2 * sizes[0][1]);
 }
 
 TEST(Editor, WithoutADisplayItSaysSoAndIsStatusFour) {
