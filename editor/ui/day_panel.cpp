@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include <imgui_internal.h>
+
 #include "lighting/day.h"
 #include "model/ramp.h"
 #include "ui/fields.h"
@@ -141,6 +143,15 @@ void drawControls(Studio& studio, model::Id light, model::Id key, std::size_t ke
     }
 }
 
+/// Selects a key and shows its hour.
+void choose(Studio& studio, model::Id key) {
+    model::Selection selection;
+    selection.key = key;
+    selection.materials = studio.model.selection().materials;
+    studio.model.select(selection);
+    studio.view.hour = lighting::wrappedHour(studio.model.key(key)->hour);
+}
+
 void drawTicks(ImDrawList* list, const ImVec2& low, float width, float scale) {
     const ImU32 color = ImGui::GetColorU32(kDimText);
     for (int hour = 0; hour <= 24; hour += 3) {
@@ -217,11 +228,7 @@ void DayPanel::pointer(Studio& studio, const Frame& frame) {
             }
         }
         if (grabbed_ != model::Id::None) {
-            model::Selection selection;
-            selection.key = grabbed_;
-            selection.materials = studio.model.selection().materials;
-            studio.model.select(selection);
-            studio.view.hour = lighting::wrappedHour(studio.model.key(grabbed_)->hour);
+            choose(studio, grabbed_);
         }
     }
     if (ImGui::IsItemActive() && scrubs_) {
@@ -241,6 +248,36 @@ void DayPanel::pointer(Studio& studio, const Frame& frame) {
         }
         studio.view.hour = rounded;
     }
+}
+
+/// Left and right move the chosen key of a strip that has the focus by a quarter of an hour, with
+/// Shift by an hour; with Ctrl they choose its neighbour.
+void DayPanel::answerArrows(Studio& studio, const Frame& frame) {
+    if (!ImGui::IsItemFocused() || ImGui::IsItemActive()) {
+        return;
+    }
+    const int steps =
+        (studio.pressed(Key::Right, true) ? 1 : 0) - (studio.pressed(Key::Left, true) ? 1 : 0);
+    if (studio.down(Key::Right) || studio.down(Key::Left)) {
+        ImGui::NavMoveRequestCancel(); // the focus stays here
+    }
+    model::Id key = studio.chosenKey();
+    const std::vector<model::KeyIds>& names = studio.model.ids().lights[frame.light].keys;
+    const auto chosen = std::find_if(names.begin(), names.end(),
+                                     [&](const model::KeyIds& k) { return k.id == key; });
+    if (steps == 0 || chosen == names.end()) {
+        return;
+    }
+    if (ImGui::GetIO().KeyCtrl) {
+        const auto count = static_cast<std::ptrdiff_t>(names.size());
+        const std::ptrdiff_t at = chosen - names.begin() + steps + count;
+        key = names[static_cast<std::size_t>(at % count)].id;
+    } else {
+        const double hours = (ImGui::GetIO().KeyShift ? 1.0 : 0.25) * steps;
+        studio.runOnce(
+            model::MoveKey{key, lighting::wrappedHour(studio.model.key(key)->hour + hours)});
+    }
+    choose(studio, key);
 }
 
 void DayPanel::draw(Studio& studio) {
@@ -263,6 +300,7 @@ void DayPanel::draw(Studio& studio) {
     ImGui::InvisibleButton(
         "##day", {frame.width, frame.rampHeight + (kHandleHeight + kTickHeight) * frame.scale});
     pointer(studio, frame);
+    answerArrows(studio, frame);
     frame.chosen = studio.chosenKey();
     drawRamp(studio, frame);
     studio.mark("day", frame.low, {frame.low.x + frame.width, frame.bottom()});

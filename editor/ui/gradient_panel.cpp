@@ -27,7 +27,9 @@ void drawStopFields(Studio& studio, lighting::LightKind kind) {
     const std::vector<model::Id> ids = selectedStops(studio);
     const document::Stop* first = ids.empty() ? nullptr : studio.model.stop(ids.front());
     if (first == nullptr) {
+        ImGui::PushTextWrapPos();
         ImGui::TextColored(kDimText, "Click the strip to add a stop, a handle to select one.");
+        ImGui::PopTextWrapPos();
         return;
     }
     const lighting::GradientStop stop = first->stop;
@@ -146,26 +148,31 @@ void drawFalseColorScale(Studio& studio) {
     }
 }
 
+float checkWidth(const char* text) {
+    return ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x +
+           ImGui::CalcTextSize(text).x;
+}
+
 void drawToggles(Studio& studio) {
     ImGui::Checkbox("Brush", &studio.view.brush);
     studio.mark("Brush");
     if (ImGui::IsItemHovered()) {
         ImGui::SetTooltip("paints along the strip (B)");
     }
-    ImGui::SameLine();
+    continueRow(checkWidth("Snap"));
     ImGui::Checkbox("Snap", &studio.view.snapping);
     studio.mark("Snap");
     if (ImGui::IsItemHovered()) {
         ImGui::SetTooltip("to 5\xc2\xb0, the horizon and other stops; Alt turns it around\n"
                           "Ctrl: whole 5\xc2\xb0, with Shift whole degrees; Shift: stops, horizon");
     }
-    ImGui::SameLine();
+    continueRow(checkWidth("False colours"));
     ImGui::Checkbox("False colours", &studio.view.falseColor);
     studio.mark("False colours");
     if (ImGui::IsItemHovered()) {
         ImGui::SetTooltip("radiance on a scale of 16 stops, here and in the day (V)");
     }
-    ImGui::SameLine();
+    continueRow(checkWidth("Pick"));
     ImGui::Checkbox("Pick", &studio.view.picking);
     studio.mark("Pick");
     if (ImGui::IsItemHovered()) {

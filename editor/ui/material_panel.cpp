@@ -178,8 +178,9 @@ void drawMaterialPanel(Studio& studio) {
     if (shown == all.end()) {
         return;
     }
-    heading(names.size() == 1 ? ("Material " + names.front()).c_str()
-                              : (std::to_string(names.size()) + " materials").c_str());
+    heading(names.size() == 1
+                ? ("Material " + names.front()).c_str()
+                : (std::to_string(names.size()) + " materials, shown: " + names.front()).c_str());
     const std::vector<std::string> chosen = names; // a command may change the selection
     drawPreview(studio);
     drawExponent(studio, *shown, chosen);

@@ -34,6 +34,7 @@ private:
     void drawRamp(const Studio& studio, const Frame& frame);
     void drawKeys(Studio& studio, const Frame& frame);
     void pointer(Studio& studio, const Frame& frame);
+    static void answerArrows(Studio& studio, const Frame& frame);
     Drawn drawn_;
     model::Id grabbed_ = model::Id::None;
     double draggedTo_ = -1.0; ///< hour; -1: nowhere yet

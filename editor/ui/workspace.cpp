@@ -341,7 +341,10 @@ void Workspace::drawHelp(const Studio& studio) {
         row("right drag, with W A S D Q E", "look around and fly; Shift is faster");
         row("wheel", "nearer, farther");
         row("Esc", "in a drag: cancel it");
-        row("Tab, arrows, Space", "reach every field without the pointer");
+        row("Tab, arrows, Space", "reach every field of a panel without the pointer");
+        row("Ctrl + Tab", "go to another panel");
+        row("left, right on a strip", "move what is chosen; Shift is faster");
+        row("Ctrl + left, right", "on the day: choose another key");
         row("Ctrl + click, Enter", "type a number");
         ImGui::EndTable();
     }

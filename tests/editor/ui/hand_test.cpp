@@ -170,5 +170,38 @@ TEST_F(Hand, WhatADragSaysOfItselfMovesNothing) {
     give(ButtonInput{0, false});
 }
 
+TEST_F(Hand, ArrowsMoveAndChooseTheKeysOfTheDay) {
+    document::Document document = model_.document();
+    document.lights[0].keys.resize(1);
+    document.lights[0].keys[0].hour = 6.0;
+    document.lights[0].keys.push_back(document.lights[0].keys[0]);
+    document.lights[0].keys[1].hour = 18.0;
+    model_.reset(document);
+    frame();
+    const auto hour = [&](std::size_t key) { return model_.document().lights[0].keys[key].hour; };
+    const auto stroke = [&](Key key, bool shift, bool control) {
+        give(KeyInput{key, true, shift, control, false});
+        give(KeyInput{key, false, false, false, false});
+    };
+    const ImVec2 key = workspace_.marks().at("key 0").center();
+    give(MotionInput{key.x, key.y});
+    give(ButtonInput{0, true});
+    give(ButtonInput{0, false});
+    stroke(Key::Right, false, false);
+    EXPECT_EQ(hour(0), 6.25);
+    EXPECT_EQ(workspace_.view().hour, 6.25);
+    stroke(Key::Left, true, false);
+    EXPECT_EQ(hour(0), 5.25);
+    stroke(Key::Right, false, true);
+    EXPECT_EQ(workspace_.view().hour, 18.0);
+    EXPECT_EQ(model_.selection().key, model_.ids().lights[0].keys[1].id);
+    stroke(Key::Right, false, false);
+    EXPECT_EQ(hour(1), 18.25);
+    EXPECT_EQ(hour(0), 5.25);
+    stroke(Key::Right, false, true);
+    EXPECT_EQ(workspace_.view().hour, 5.25) << "after the last the first";
+    EXPECT_EQ(model_.undoCount(), 3u);
+}
+
 } // namespace
 } // namespace lodestar::ui
