@@ -119,7 +119,8 @@ inline std::string missingPrograms() {
     }
     for (const char* program : {"Xvfb", "xprop", "xdotool", "openbox", "import"}) {
         if (output(std::string("command -v ") + program).empty()) {
-            return std::string("needs Xvfb, xprop, openbox, xdotool and ImageMagick: no ") + program;
+            return std::string("needs Xvfb, xprop, openbox, xdotool and ImageMagick: no ") +
+                   program;
         }
     }
     return {};
