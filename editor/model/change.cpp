@@ -89,11 +89,11 @@ void giveValues(document::Light& light, const document::Light& values) {
 }
 
 template <class Value>
-std::optional<Swap<Value>> swapOf(Value before, Value after) {
+Rarely<Value> swapOf(Value before, Value after) {
     if (before == after) {
-        return std::nullopt;
+        return nullptr;
     }
-    return Swap<Value>{std::move(before), std::move(after)};
+    return std::make_unique<const Swap<Value>>(Swap<Value>{std::move(before), std::move(after)});
 }
 
 /// The names of the parts of a list alone, without those of what is below.
@@ -206,18 +206,19 @@ bool Change::empty() const {
 }
 
 std::size_t Change::bytes() const {
-    std::size_t sum = sizeof *this + bytesOf(probes) + bytesOf(lights);
-    sum += materials.size() * sizeof(MaterialChange);
+    const auto swapped = [](const auto& swap) { return swap ? sizeof *swap : std::size_t{0}; };
+    std::size_t sum = swapped(environment) + swapped(rsrm) + swapped(unknown);
+    sum += bytesOf(probes) + bytesOf(lights) + materials.size() * sizeof(MaterialChange);
     for (const auto* side : {rsrm ? &rsrm->before : nullptr, rsrm ? &rsrm->after : nullptr}) {
         if (side != nullptr && *side) {
             sum += (*side)->exponents.size() * sizeof(double) + (*side)->unknown.size();
         }
     }
     for (const LightChange& each : inLights) {
-        sum += sizeof each + bytesOf(each.keys);
+        sum += sizeof each + swapped(each.values) + bytesOf(each.keys);
     }
     for (const KeyChange& each : inKeys) {
-        sum += sizeof each + bytesOf(each.stops);
+        sum += sizeof each + swapped(each.values) + bytesOf(each.stops);
     }
     return sum;
 }

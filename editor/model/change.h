@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -31,17 +32,21 @@ struct Swap {
     Value before, after;
 };
 
+/// What few changes have: null where it is the same on both sides, and then as small as that.
+template <class Value>
+using Rarely = std::unique_ptr<const Swap<Value>>;
+
 /// A change inside one key: its values but the stops, and its stops.
 struct KeyChange {
     std::size_t light = 0, key = 0;
-    std::optional<Swap<document::Key>> values; ///< without stops
+    Rarely<document::Key> values; ///< without stops
     Splice<document::Stop, Id> stops;
 };
 
 /// A change inside one light: its values but the keys, or its list of keys.
 struct LightChange {
     std::size_t light = 0;
-    std::optional<Swap<document::Light>> values; ///< without keys
+    Rarely<document::Light> values; ///< without keys
     Splice<document::Key, KeyIds> keys;
 };
 
@@ -51,19 +56,19 @@ struct MaterialChange {
 };
 
 struct Change {
-    std::optional<Swap<std::optional<document::Environment>>> environment;
+    Rarely<std::optional<document::Environment>> environment;
     std::vector<MaterialChange> materials;
     Splice<document::Probe, Id> probes;
     Splice<document::Light, LightIds> lights;
     std::vector<LightChange> inLights;
     std::vector<KeyChange> inKeys;
-    std::optional<Swap<std::optional<document::Rsrm>>> rsrm;
-    std::optional<Swap<document::Unknown>> unknown;
+    Rarely<std::optional<document::Rsrm>> rsrm;
+    Rarely<document::Unknown> unknown;
     Swap<std::uint64_t> next{0, 0}; ///< Identities::next
 
     /// Whether the document is the same on both sides.
     [[nodiscard]] bool empty() const;
-    /// Memory that it keeps, about.
+    /// Memory that it keeps besides itself, about.
     [[nodiscard]] std::size_t bytes() const;
 };
 

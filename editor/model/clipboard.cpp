@@ -2,6 +2,7 @@
 #include "model/clipboard.h"
 
 #include <algorithm>
+#include <unordered_set>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -15,6 +16,7 @@ using lighting::LightKind;
 using Json = nlohmann::json;
 
 constexpr const char* kMember = "clipboard";
+constexpr const char* kNoStop = "there is no such stop";
 constexpr const char* kForeign = "the text is no stops, gradient, key or material of Lodestar's";
 
 /// A document that is marked as a part of one.
@@ -77,29 +79,28 @@ Command pasteMaterial(const document::Material& material, const PasteTarget& tar
 } // namespace
 
 core::Result<std::string> copyStops(const Model& model, const std::vector<Id>& stops) {
-    document::Key key;
-    Id from = Id::None;
-    for (const Id id : stops) {
-        const document::Stop* const stop = model.stop(id);
-        if (stop == nullptr) {
-            return core::refused("there is no such stop");
-        }
-        if (from != Id::None && model.keyOf(id) != from) {
-            return core::refused("stops of one gradient are copied at a time");
-        }
-        from = model.keyOf(id);
-    }
-    if (from == Id::None) {
+    if (stops.empty()) {
         return core::refused("no stop is named");
     }
+    const Id from = model.keyOf(stops.front());
+    const auto place = findKey(model.ids(), from);
+    if (!place) {
+        return core::refused(kNoStop);
+    }
     // In the gradient's order, not that of selecting.
-    const auto place = *findKey(model.ids(), from);
-    const document::Light& light = model.document().lights[place.light];
-    const std::vector<Id>& names = model.ids().lights[place.light].keys[place.key].stops;
+    const std::unordered_set<Id> wanted(stops.begin(), stops.end());
+    const document::Light& light = model.document().lights[place->light];
+    const std::vector<Id>& names = model.ids().lights[place->light].keys[place->key].stops;
+    document::Key key;
     for (std::size_t i = 0; i < names.size(); ++i) {
-        if (std::find(stops.begin(), stops.end(), names[i]) != stops.end()) {
-            key.gradient.stops.push_back(light.keys[place.key].gradient.stops[i]);
+        if (wanted.contains(names[i])) {
+            key.gradient.stops.push_back(light.keys[place->key].gradient.stops[i]);
         }
+    }
+    if (key.gradient.stops.size() != wanted.size()) {
+        const bool known = std::all_of(wanted.begin(), wanted.end(),
+                                       [&](Id id) { return model.keyOf(id) != Id::None; });
+        return core::refused(known ? "stops of one gradient are copied at a time" : kNoStop);
     }
     return textOf("stops", light.kind, std::move(key));
 }

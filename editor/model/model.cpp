@@ -192,10 +192,11 @@ std::size_t Model::historyBytes() const {
     std::size_t sum = steps_.capacity() * sizeof(Step);
     for (const Step& step : steps_) {
         for (const Part& part : step.parts) {
-            // What a command brings is what it changes; a stroke has its path besides.
+            // A stroke has its path; another command brings one side of what it changes.
             const auto* const stroke = std::get_if<BrushStroke>(&part.command);
-            sum += sizeof(Part) + 2 * part.change.bytes() +
-                   (stroke != nullptr ? stroke->path.capacity() * sizeof(double) : 0);
+            const std::size_t changed = part.change.bytes();
+            sum += sizeof(Part) + changed +
+                   (stroke != nullptr ? stroke->path.capacity() * sizeof(double) : changed / 2);
         }
     }
     return sum;
@@ -250,11 +251,11 @@ void Model::note(const Change& change) {
     const auto noteList = [now](std::uint64_t& revision, bool changed) {
         revision = changed ? now : revision;
     };
-    noteList(revisions_.environment, change.environment.has_value());
+    noteList(revisions_.environment, change.environment != nullptr);
     noteList(revisions_.materials, !change.materials.empty());
     noteList(revisions_.probes, !change.probes.empty());
     noteList(revisions_.lights, !change.lights.empty() || !change.inLights.empty() ||
-                                    !change.inKeys.empty() || change.rsrm.has_value());
+                                    !change.inKeys.empty() || change.rsrm != nullptr);
 }
 
 void Model::selectCreated(const std::vector<Id>& created) {

@@ -2,6 +2,8 @@
 #include "model/state.h"
 
 #include <algorithm>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "model/selection.h"
 
@@ -18,6 +20,38 @@ void keepValid(std::vector<T>& list, Has&& has) {
         }
     }
     list = std::move(kept);
+}
+
+/// The keys that selected stops are of. One pass over the document, however many they are.
+std::unordered_map<Id, const KeyIds*> keysOf(const std::vector<Id>& stops, const Identities& ids) {
+    const std::unordered_set<Id> wanted(stops.begin(), stops.end());
+    std::unordered_map<Id, const KeyIds*> found;
+    for (const LightIds& light : ids.lights) {
+        for (const KeyIds& key : light.keys) {
+            for (const Id stop : key.stops) {
+                if (wanted.contains(stop)) {
+                    found.emplace(stop, &key);
+                }
+            }
+        }
+    }
+    return found;
+}
+
+/// Leaves of selected stops each once, in the order of their first coming, and those of one key:
+/// that of the first that there is.
+void keepStops(Selection& selection, const Identities& ids) {
+    if (selection.stops.empty()) {
+        return;
+    }
+    auto keys = keysOf(selection.stops, ids);
+    const KeyIds* key = nullptr;
+    std::erase_if(selection.stops, [&](Id stop) {
+        const auto found = keys.extract(stop);
+        key = key == nullptr && found ? found.mapped() : key;
+        return !found || found.mapped() != key;
+    });
+    selection.key = key != nullptr ? key->id : selection.key;
 }
 
 } // namespace
@@ -92,15 +126,7 @@ std::optional<std::size_t> findProbe(const Identities& ids, Id probe) {
 }
 
 Selection valid(Selection selection, const Identities& ids) {
-    keepValid(selection.stops, [&](Id id) { return findStop(ids, id).has_value(); });
-    if (!selection.stops.empty()) {
-        const auto place = *findStop(ids, selection.stops.front());
-        const KeyIds& key = ids.lights[place.light].keys[place.key];
-        selection.key = key.id;
-        keepValid(selection.stops, [&](Id id) {
-            return std::find(key.stops.begin(), key.stops.end(), id) != key.stops.end();
-        });
-    }
+    keepStops(selection, ids);
     if (const auto key = findKey(ids, selection.key)) {
         selection.light = ids.lights[key->light].id;
     } else {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <unordered_set>
 
 #include <imgui_internal.h>
 
@@ -32,6 +33,23 @@ int heldKeys() {
     return (io.KeyCtrl ? 1 : 0) | (io.KeyShift ? 2 : 0) | (io.KeyAlt ? 4 : 0);
 }
 
+/// The selected stops of a key and where they are, in the document's order.
+std::vector<model::StopMove> selectedPlaces(const Studio& studio, model::Id key) {
+    const std::vector<model::Id>& stops = studio.model.selection().stops;
+    const std::unordered_set<model::Id> selected(stops.begin(), stops.end());
+    std::vector<model::StopMove> places;
+    if (const auto place = model::findKey(studio.model.ids(), key)) {
+        const auto& names = studio.model.ids().lights[place->light].keys[place->key].stops;
+        const document::Gradient& gradient = studio.model.key(key)->gradient;
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            if (selected.contains(names[i])) {
+                places.push_back({names[i], gradient.stops[i].stop.at});
+            }
+        }
+    }
+    return places;
+}
+
 } // namespace
 
 double placeOf(double at, LightKind kind) {
@@ -52,7 +70,8 @@ std::vector<double> ticksOf(LightKind kind) {
 struct GradientStrip::Frame {
     const document::Key* key = nullptr;
     model::Id id = model::Id::None;
-    std::vector<model::Id> stops; ///< in the document's order
+    std::vector<model::Id> stops;         ///< in the document's order
+    std::unordered_set<model::Id> chosen; ///< of the selection
     LightKind kind = LightKind::Sky;
     ImVec2 low; ///< of the ramp
     float width = 1.0f, scale = 1.0f;
@@ -64,6 +83,7 @@ struct GradientStrip::Frame {
     [[nodiscard]] double at(float pixels) const {
         return atOf(static_cast<double>((pixels - low.x) / width), kind);
     }
+    [[nodiscard]] bool selected(std::size_t stop) const { return chosen.contains(stops[stop]); }
     [[nodiscard]] float bottom() const { return low.y + kRampHeight * scale; }
     /// The stop whose handle is under a place; the last drawn of several.
     [[nodiscard]] std::optional<std::size_t> handleAt(const ImVec2& place) const {
@@ -121,14 +141,30 @@ void GradientStrip::drawTicks(const Frame& frame) {
     }
 }
 
+/// The stops that get a handle: all, or where they are more than the pixels one for each pixel, the
+/// last or the last that is selected.
+std::vector<std::size_t> GradientStrip::shownStops(const Frame& frame) {
+    std::vector<std::size_t> shown;
+    for (std::size_t i = 0; i < frame.stops.size(); ++i) {
+        const auto pixel = [&](std::size_t stop) {
+            return std::floor(frame.x(frame.key->gradient.stops[stop].stop.at));
+        };
+        if (shown.empty() || static_cast<float>(frame.stops.size()) <= frame.width ||
+            pixel(i) != pixel(shown.back())) {
+            shown.push_back(i);
+        } else if (frame.selected(i) || !frame.selected(shown.back())) {
+            shown.back() = i;
+        }
+    }
+    return shown;
+}
+
 void GradientStrip::drawStops(Studio& studio, const Frame& frame) const {
-    const std::vector<model::Id>& selected = studio.model.selection().stops;
     const float half = 0.75f * kGrabPixels * frame.scale;
     const float top = frame.bottom() + 2.0f;
-    for (std::size_t i = 0; i < frame.stops.size(); ++i) {
+    for (const std::size_t i : shownStops(frame)) {
         const lighting::GradientStop& stop = frame.key->gradient.stops[i].stop;
-        const bool chosen =
-            std::find(selected.begin(), selected.end(), frame.stops[i]) != selected.end();
+        const bool chosen = frame.selected(i);
         const float x = frame.x(stop.at);
         const ImVec2 outline[] = {{x, top},
                                   {x + half, top + half},
@@ -189,11 +225,7 @@ void GradientStrip::press(Studio& studio, const Frame& frame, double at) {
         return;
     }
     grabbedAt_ = at;
-    for (const model::Id id : studio.model.selection().stops) {
-        if (const document::Stop* stop = studio.model.stop(id)) {
-            grabbed_.push_back({id, stop->stop.at});
-        }
-    }
+    grabbed_ = selectedPlaces(studio, frame.id);
 }
 
 /// Where a drag draws a stop to. Ctrl: whole 5 degrees; with Shift: whole degrees; Shift alone:
@@ -211,10 +243,13 @@ double GradientStrip::drawnTo(const Studio& studio, const Frame& frame, double a
     } else if (studio.view.snapping == io.KeyAlt) {
         return at;
     }
+    std::unordered_set<model::Id> grabbed;
+    for (const model::StopMove& from : grabbed_) {
+        grabbed.insert(from.stop);
+    }
     std::vector<double> others;
     for (std::size_t i = 0; i < frame.stops.size(); ++i) {
-        if (std::none_of(grabbed_.begin(), grabbed_.end(),
-                         [&](const model::StopMove& m) { return m.stop == frame.stops[i]; })) {
+        if (!grabbed.contains(frame.stops[i])) {
             others.push_back(frame.key->gradient.stops[i].stop.at);
         }
     }
@@ -310,15 +345,12 @@ void GradientStrip::answerArrows(Studio& studio, const Frame& frame) {
     const double parts = (ImGui::GetIO().KeyShift ? 10.0 : 1.0) * steps;
     const model::AngleRange range = model::anglesOf(frame.kind);
     model::MoveStops move;
-    for (const model::Id id : studio.model.selection().stops) {
-        if (const document::Stop* stop = studio.model.stop(id)) {
-            const double at = stop->stop.at;
-            // A sky's parts are degrees, exactly.
-            const double to = frame.kind == LightKind::Sky
-                                  ? at - parts
-                                  : atOf(placeOf(at, frame.kind) + parts / 180.0, frame.kind);
-            move.moves.push_back({id, std::clamp(to, range.least, range.most)});
-        }
+    for (const auto& [id, at] : selectedPlaces(studio, frame.id)) {
+        // A sky's parts are degrees, exactly.
+        const double to = frame.kind == LightKind::Sky
+                              ? at - parts
+                              : atOf(placeOf(at, frame.kind) + parts / 180.0, frame.kind);
+        move.moves.push_back({id, std::clamp(to, range.least, range.most)});
     }
     studio.runOnce(move);
 }
@@ -367,6 +399,8 @@ void GradientStrip::draw(Studio& studio, model::Id key) {
     // What the pointer has just done is drawn in the same frame.
     frame.key = studio.model.key(key);
     frame.stops = studio.model.ids().lights[place->light].keys[place->key].stops;
+    const std::vector<model::Id>& chosen = studio.model.selection().stops;
+    frame.chosen.insert(chosen.begin(), chosen.end());
     drawRamp(studio, frame);
     drawTicks(frame);
     drawStops(studio, frame);

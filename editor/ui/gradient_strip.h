@@ -34,6 +34,7 @@ private:
 
     void drawRamp(Studio& studio, const Frame& frame) const;
     static void drawTicks(const Frame& frame);
+    [[nodiscard]] static std::vector<std::size_t> shownStops(const Frame& frame);
     static void takeDrop(Studio& studio, const Frame& frame, double at);
     static void answerArrows(Studio& studio, const Frame& frame);
     static void answerRemoval(Studio& studio, const Frame& frame);

@@ -250,7 +250,7 @@ TEST(Undo, AStepKeepsWhatItChangedAndNotTheDocument) {
         did(model, SetStops{{stopId(model, static_cast<std::size_t>(i))}, {}, {}, 1.0});
     }
     // Two stops of some 100 bytes and the frame about them, not 10,000 stops.
-    EXPECT_LT(model.historyBytes() / model.undoCount(), 4096U);
+    EXPECT_LT(model.historyBytes() / model.undoCount(), 2048U);
 }
 
 TEST(Selection, KeepsItsPartsWhileTheyChangePlaces) {

@@ -157,8 +157,10 @@ TEST(Monkey, RandomInputLeavesASoundDocument) {
             settledKiB = residentKiB();
         }
         if (frame % 1000000 == 999999) {
-            std::printf("%d million frames, %d edits, %ld KiB\n", (frame + 1) / 1000000, edits,
-                        residentKiB());
+            std::printf("%d million frames, %d edits, %ld KiB, %zu KiB of it undo's %zu steps\n",
+                        (frame + 1) / 1000000, edits, residentKiB(),
+                        world.model().historyBytes() / 1024,
+                        world.model().undoCount() + world.model().redoCount());
             std::fflush(stdout);
         }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The gradient's strip as gradient editors are expected to behave, and what is typed into it.
+#include <cctype>
 #include <cmath>
 
 #include "editor/ui/editor_fixture.h"
@@ -184,6 +185,16 @@ TEST_F(StripTest, TenThousandStopsAndAWindowOfOnePixel) {
     ASSERT_TRUE(model().execute(model::SetGradient{key, many}).ok());
     settle();
     EXPECT_EQ(stops().size(), 10000u);
+    // One handle for each pixel, of all of which the strip is the width.
+    frame();
+    const auto& marks = editor_->workspace().marks();
+    const auto handles = std::count_if(marks.begin(), marks.end(), [](const auto& named) {
+        return named.first.starts_with("stop ") &&
+               std::isdigit(static_cast<unsigned char>(named.first[5])) != 0;
+    });
+    const auto pixels = std::lround(mark("ramp").high.x - mark("ramp").low.x);
+    EXPECT_GE(handles, pixels - 1);
+    EXPECT_LE(handles, pixels + 1);
     drag(onRamp(0.2f), onRamp(0.5f));
     drag(onRamp(0.2f), onRamp(0.2f)); // of no width
     control(Key::A);
