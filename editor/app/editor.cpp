@@ -191,7 +191,7 @@ void Editor::answer(const ui::Wishes& wishes) {
     } else if (wishes.openLighting) {
         done = openLightingFile(*wishes.openLighting);
     } else if (wishes.openScene) {
-        openSceneBeside(*wishes.openScene, {});
+        askForScene(*wishes.openScene);
     }
     if (!done) {
         workspace_.say(done.error().message(), true);

@@ -150,6 +150,8 @@ private:
     core::Result<void> openScene(const std::string& path, const std::string& root);
     /// The same beside the frames: until it is all there, what was shown is.
     void openSceneBeside(const std::string& path, const std::string& root);
+    /// As somebody at the window asks for it: which is said in place of what was said before.
+    void askForScene(const std::string& path);
     void uploadOpening();
     void show(const std::string& path, const std::string& root, Shown shown);
     void cancelWork();

@@ -150,7 +150,7 @@ void Editor::drop(const std::string& path) {
     const std::string extension = extensionOf(path);
     core::Result<void> done;
     if (extension == ".gltf" || extension == ".glb") {
-        openSceneBeside(path, {});
+        askForScene(path);
     } else if (isPicture(extension)) {
         openPhotograph(path);
     } else if (extension == ".json") {

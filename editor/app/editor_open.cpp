@@ -63,6 +63,11 @@ core::Result<void> Editor::openScene(const std::string& path, const std::string&
     return {};
 }
 
+void Editor::askForScene(const std::string& path) {
+    workspace_.say("opening " + std::filesystem::path(path).filename().string());
+    openSceneBeside(path, {});
+}
+
 void Editor::openSceneBeside(const std::string& path, const std::string& root) {
     opening_.reset();
     const auto read = [this, path,

@@ -16,6 +16,7 @@ constexpr Binding kBindings[] = {
     {Action::Quit, Menu::File, "Quit", Key::Q, true},
     {Action::Undo, Menu::Edit, "Undo", Key::Z, true, false, true},
     {Action::Redo, Menu::Edit, "Redo", Key::Z, true, true, true},
+    {Action::Redo, Menu::None, "Redo", Key::Y, true, false, true},
     {Action::Copy, Menu::Edit, "Copy", Key::C, true},
     {Action::Cut, Menu::Edit, "Cut", Key::X, true},
     {Action::Paste, Menu::Edit, "Paste", Key::V, true},

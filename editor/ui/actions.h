@@ -50,7 +50,7 @@ enum class Action {
     Help,
 };
 
-enum class Menu { File, Edit, Gradient, View, Help };
+enum class Menu { File, Edit, Gradient, View, Help, None };
 
 struct Binding {
     Action action;

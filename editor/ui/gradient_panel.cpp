@@ -32,6 +32,9 @@ void drawStopFields(Studio& studio, lighting::LightKind kind) {
         ImGui::PopTextWrapPos();
         return;
     }
+    if (ids.size() > 1) {
+        ImGui::TextColored(kDimText, "%zu stops, shown: the first selected", ids.size());
+    }
     const lighting::GradientStop stop = first->stop;
     model::SetStops set{ids, {}, {}, {}};
     const model::AngleRange range = model::anglesOf(kind);

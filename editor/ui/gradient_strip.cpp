@@ -217,7 +217,8 @@ void GradientStrip::press(Studio& studio, const Frame& frame, double at) {
         at = frame.key->gradient.stops[*handle].stop.at;
     } else if (ImGui::GetIO().MousePos.y <= frame.bottom() &&
                !ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) { // whose first has added one
-        const auto added = studio.runOnce(model::AddStop{frame.id, at});
+        // One step with the drag that may follow.
+        const auto added = studio.run(model::AddStop{frame.id, at});
         if (!added || added->created.empty()) {
             return;
         }

@@ -60,6 +60,29 @@ TEST_F(StripTest, ADoubleClickAddsOneStop) {
     EXPECT_EQ(stops().size(), before + 1);
 }
 
+TEST_F(StripTest, AClickAndItsDragAreOneStep) {
+    const std::size_t before = stops().size();
+    const std::size_t steps = model().undoCount();
+    drag(onRamp(0.3f), onRamp(0.36f));
+    EXPECT_EQ(model().undoCount(), steps + 1);
+    const double place = at(selected());
+    EXPECT_NEAR(ui::placeOf(place, lighting::LightKind::Sky), 0.36, 0.01);
+    const std::string with = document::writeDocument(model().document());
+    control(Key::Z);
+    EXPECT_EQ(stops().size(), before);
+    control(Key::Y);
+    EXPECT_EQ(document::writeDocument(model().document()), with);
+    moveTo(onRamp(0.6f));
+    button(true);
+    moveTo(onRamp(0.65f));
+    EXPECT_EQ(stops().size(), before + 2);
+    press(Key::Escape);
+    button(false);
+    EXPECT_EQ(document::writeDocument(model().document()), with)
+        << "the stop is gone with its drag";
+    EXPECT_EQ(model().undoCount(), steps + 1);
+}
+
 TEST_F(StripTest, ArrowsMoveTheSelectedStops) {
     click(onRamp(0.3f));
     const model::Id stop = selected();
