@@ -70,10 +70,12 @@ TEST(Clipboard, ForeignTextIsRefusedInASentence) {
     const std::string whole = textOf(model);
     std::string other = copied(copyGradient(model, keyId(model)));
     other.replace(other.find("gradient\"", other.find("clipboard")), 9, "teapot\"");
+    std::string more = copied(copyGradient(model, keyId(model)));
+    more.insert(more.find("\"clipboard"), "\"another\": 1, ");
     for (const std::string& text :
-         {std::string(), std::string("hello"), std::string("{}"), std::string("[1,2,3]"), whole,
-          other, std::string("#ff8800"), std::string(100000, '['), std::string("\xff\xfe\0x", 4),
-          std::string(R"({"lodestar":1,"clipboard":"stops"})"),
+         {std::string(), more, std::string("hello"), std::string("{}"), std::string("[1,2,3]"),
+          whole, other, std::string("#ff8800"), std::string(100000, '['),
+          std::string("\xff\xfe\0x", 4), std::string(R"({"lodestar":1,"clipboard":"stops"})"),
           std::string(R"({"lodestar":1,"clipboard":"material","materials":{}})"),
           std::string(R"({"lodestar":2,"clipboard":"stops","lights":[]})")}) {
         EXPECT_EQ(refusedPaste(model, text, target),

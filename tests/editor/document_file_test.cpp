@@ -84,8 +84,12 @@ TEST_F(DocumentFileTest, SavesAndReadsTheSameAgain) {
 
 TEST_F(DocumentFileTest, SavesAtAnotherPath) {
     edit(3.0);
+    EXPECT_FALSE(autosaved(0.0));
+    EXPECT_TRUE(autosaved(kAutosaveSeconds));
+    EXPECT_TRUE(fs::exists(autosavePath(path_)));
     const fs::path other = folder_.path() / "other.lodestar.json";
     ASSERT_TRUE(file_.saveAs(model_, other));
+    EXPECT_EQ(filesIn(folder_.path()), 2U) << "what is saved elsewhere is not offered here";
     EXPECT_EQ(file_.path(), other);
     EXPECT_EQ(contents(path_), kDocument);
     EXPECT_EQ(contents(other), textOf(model_));
@@ -214,6 +218,8 @@ TEST_F(DocumentFileTest, OnlyANewerAndDifferentSideFileIsOffered) {
     setTime(side, -10);
     reopen();
     EXPECT_FALSE(file_.recovery()) << "older";
+    fs::last_write_time(side, fs::last_write_time(path_));
+    EXPECT_TRUE(file_.recovery()) << "within one tick of the file system's clock";
     setTime(side, 10);
     EXPECT_TRUE(file_.recovery());
     file_.discardAutosave();

@@ -214,6 +214,13 @@ TEST(Stops, AsManyAsThereMayBeAreSelectedAndCopiedInOnePass) {
     all.push_back(all.front());
     model.select({Id::None, Id::None, all, {}, {}});
     EXPECT_EQ(model.selection().stops.size(), kMostStops) << "each once";
+    EXPECT_FALSE(refusal(model, AddStop{keyId(model), 3.0}).empty());
+    const document::Stop one{grey(3.0, 0.5), {}};
+    EXPECT_FALSE(refusal(model, InsertStops{keyId(model), {one}}).empty());
+    did(model, DeleteStops{{stopId(model, 7)}});
+    EXPECT_FALSE(refusal(model, InsertStops{keyId(model), {one, one}}).empty());
+    did(model, InsertStops{keyId(model), {one}});
+    EXPECT_EQ(stopsOf(model).size(), kMostStops);
 }
 
 TEST(Stops, AGradientThatRunsTheOtherWayKeepsItsLook) {
@@ -266,6 +273,9 @@ TEST(Ramp, SnapsToTheNearestWithinReach) {
     EXPECT_EQ(snapped(12.7, {0.0, true, false, 1.0}, others), 12.0);
     EXPECT_EQ(snapped(13.7, {0.0, true, false, 1.0}, others), 13.7);
     EXPECT_EQ(snapped(-0.4, {5.0, true, true, 1.0}, others), 0.0);
+    EXPECT_EQ(snapped(-0.4, {0.0, false, true, 1.0}, others), 0.0) << "the horizon alone";
+    EXPECT_EQ(snapped(-0.4, {0.0, true, false, 1.0}, others), -0.4) << "no horizon";
+    EXPECT_EQ(snapped(1.0, {0.0, false, true, 1.0}, others), 0.0) << "as far as it reaches";
     EXPECT_EQ(snapped(29.2, {5.0, true, false, 1.0}, others), 30.0);
     EXPECT_EQ(snapped(29.2, {5.0, false, false, 0.5}, others), 29.2);
     EXPECT_EQ(snapped(30.5, {5.0, true, false, 1.0}, others), 31.0) << "of two the stop";

@@ -141,6 +141,13 @@ TEST(Undo, MergingEndsWithTheTokenAStepBackAndASave) {
     type(1.7, 0);
     type(1.8, 0);
     EXPECT_EQ(model.undoCount(), 7U);
+    const MergeToken held = model.newToken();
+    type(1.9, held);
+    EXPECT_TRUE(model.undo());
+    type(2.0, held); // the step below is another one's
+    EXPECT_EQ(model.undoCount(), 8U);
+    EXPECT_TRUE(model.undo());
+    EXPECT_EQ(model.document().environment->ev, 1.8);
 }
 
 TEST(Undo, ADragThatIsCancelledIsNoStepAndCannotBeRedone) {
