@@ -227,6 +227,10 @@ TEST_F(EditorFilesTest, AFullDiskAndAReadOnlyFolderKeepTheDocument) {
         control(Key::S);
         EXPECT_TRUE(said().isError);
         EXPECT_TRUE(model().dirty());
+        control(Key::Q);
+        settle();
+        click(mark("Save and quit").center());
+        EXPECT_FALSE(editor_->closing()) << "what could not be saved is not lost";
     }
     EXPECT_EQ(onDisk(path_), saved);
     EXPECT_EQ(text(), mine);
@@ -240,6 +244,22 @@ TEST_F(EditorFilesTest, AFullDiskAndAReadOnlyFolderKeepTheDocument) {
     EXPECT_EQ(onDisk(path_), saved);
     control(Key::S);
     EXPECT_EQ(onDisk(path_), mine);
+}
+
+TEST_F(EditorFilesTest, WhatIsThrownAwayIsNotOfferedAgain) {
+    const fs::path side = model::autosavePath(path_);
+    click(onRamp(0.3f));
+    editor_->advance(0.01);
+    for (int i = 0; i < 1000 && !fs::exists(side); ++i) { // 5 s of the clock
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        editor_->advance(0.01);
+    }
+    ASSERT_TRUE(fs::exists(side));
+    control(Key::Q);
+    settle();
+    click(mark("Quit without saving").center());
+    EXPECT_TRUE(editor_->closing());
+    EXPECT_FALSE(fs::exists(side));
 }
 
 } // namespace

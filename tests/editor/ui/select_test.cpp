@@ -69,6 +69,14 @@ TEST_F(Select, FramingBringsItNearAndShiftBringsAllBack) {
                         1e-3f * (1.0f + std::abs(all[column][row])));
         }
     }
+    // A material without a node that is selected.
+    model::Selection material;
+    material.materials = chosen();
+    editor_->workspace().view().node = -1;
+    model().select(material);
+    press(Key::F);
+    const float near = seen({0.0f, 0.0f, 0.75f}).y - seen({0.0f, 1.0f, 0.75f}).y;
+    EXPECT_GT(near, 0.5f * (place.high.y - place.low.y));
 }
 
 TEST(FirstMet, IsTheNearestTriangleOfAnyNodeFromBothSides) {
