@@ -269,5 +269,15 @@ TEST_F(EditorTest, TheCameraOrbitsAndFrames) {
     EXPECT_LT(difference(before, viewport()), 0.002);
 }
 
+TEST_F(EditorTest, ExposureBrightensThePictureThatIsShown) {
+    const core::Image before = viewport();
+    const double exposure = editor_->workspace().view().exposure;
+    press(Key::Plus);
+    EXPECT_GT(editor_->workspace().view().exposure, exposure);
+    EXPECT_GT(difference(before, viewport()), 0.005);
+    press(Key::Minus);
+    EXPECT_LT(difference(before, viewport()), 0.002);
+}
+
 } // namespace
 } // namespace lodestar::testing
