@@ -24,6 +24,10 @@ std::optional<double> parseNumber(std::string_view text) {
     return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
+std::string quoted(std::string_view text) {
+    return std::string(1, '\'').append(text).append(1, '\'');
+}
+
 } // namespace
 
 int fail(const core::Error& error) {
@@ -73,7 +77,7 @@ core::Result<std::vector<double>> parseNumbers(std::string_view text, std::size_
         }
         rest.remove_prefix(comma + 1);
     }
-    return usage("'" + std::string(text) + "' is not " + std::to_string(count) +
+    return usage(quoted(text) + " is not " + std::to_string(count) +
                      " finite numbers separated by commas",
                  option);
 }
@@ -92,8 +96,7 @@ core::Result<double> parseExponent(std::string_view text, const std::string& opt
     }
     const std::optional<double> value = parseNumber(text);
     if (!value || *value < 0.0) {
-        return usage("'" + std::string(text) + "' is not an exponent: a number from 0, or inf",
-                     option);
+        return usage(quoted(text) + " is not an exponent: a number from 0, or inf", option);
     }
     return *value;
 }
