@@ -48,11 +48,14 @@ std::vector<glm::dvec3> radianceAt(const document::Gradient& gradient, LightKind
 }
 
 lighting::GradientStop stopOf(double at, const glm::dvec3& radiance, double ev) {
-    const double brightest = std::max({radiance.r, radiance.g, radiance.b});
-    if (!(brightest * std::exp2(-ev) <= 1.0)) {
-        ev = std::max(0.0, std::ceil(std::log2(brightest)));
+    // A colour space and back may have made a rounding more of the most.
+    const glm::dvec3 held = glm::min(radiance, glm::dvec3(lighting::kMaxRadiance));
+    const double brightest = std::max({held.r, held.g, held.b});
+    const double color = brightest * std::exp2(-ev);
+    if (!(color <= 1.0 && color * std::exp2(ev) <= lighting::kMaxRadiance)) {
+        ev = std::max(0.0, std::ceil(std::log2(brightest))); // whole: nothing is rounded
     }
-    return {at, radiance * std::exp2(-ev), ev};
+    return {at, held * std::exp2(-ev), ev};
 }
 
 double snapped(double at, const Snap& snap, std::span<const double> others) {

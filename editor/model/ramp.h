@@ -34,7 +34,8 @@ struct AngleRange {
                                                  lighting::LightKind kind,
                                                  std::span<const double> at);
 
-/// A stop of a radiance: a colour in [0, 1] where 2^ev alone is the brightest channel's excess.
+/// A stop of a radiance: a colour in [0, 1] where 2^ev alone is the brightest channel's excess;
+/// above 1e9 it is 1e9.
 /// @param ev kept where the colour then lies in [0, 1]
 [[nodiscard]] lighting::GradientStop stopOf(double at, const glm::dvec3& radiance, double ev = 0.0);
 

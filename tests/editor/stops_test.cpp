@@ -268,6 +268,19 @@ TEST(Ramp, PicksRadianceAndMakesStopsOfIt) {
     EXPECT_EQ(stopOf(5.0, glm::dvec3(0.5), 2.0).ev, 2.0) << "kept where it does";
 }
 
+// Oklab and back makes a rounding more of 1e9, and so does an ev that is no whole number.
+TEST(Ramp, MakesNoStopsBeyondTheMost) {
+    for (const double radiance : {1e9, std::nextafter(1e9, 2e9), 2e9}) {
+        for (int i = 0; i <= 1000; ++i) {
+            const GradientStop stop = stopOf(5.0, glm::dvec3(0, radiance, 1), 29.5 + 0.002 * i);
+            const double shines = stop.color.g * std::exp2(stop.ev);
+            ASSERT_LE(shines, 1e9) << radiance << ", " << i;
+            ASSERT_GE(shines, 1e9 * (1.0 - 3.0 * 0x1p-52))
+                << "two powers by a unit, two products by half";
+        }
+    }
+}
+
 TEST(Ramp, SnapsToTheNearestWithinReach) {
     const std::vector<double> others = {12.0, 31.0};
     EXPECT_EQ(snapped(12.7, {0.0, true, false, 1.0}, others), 12.0);
