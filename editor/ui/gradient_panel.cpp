@@ -117,7 +117,6 @@ void drawShapeButtons(Studio& studio, model::Id key, lighting::LightKind kind) {
 
 /// What radiance the false colours stand for.
 void drawFalseColorScale(Studio& studio) {
-    constexpr double kHalf = 8.0; // stops to either side, as falseShownColor
     constexpr int kColumns = 128, kNumbers = 5;
     const double exposure = std::exp2(studio.view.exposure);
     const float line = ImGui::GetTextLineHeight();
@@ -127,7 +126,7 @@ void drawFalseColorScale(Studio& studio) {
     studio.mark("false colour scale");
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const auto radianceAt = [&](double share) {
-        return std::exp2(2.0 * kHalf * (share - 0.5)) / exposure;
+        return std::exp2(kFalseColorStops * (share - 0.5)) / exposure;
     };
     for (int i = 0; i < kColumns; ++i) {
         const auto edge = [&](int column) {

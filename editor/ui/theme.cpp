@@ -110,9 +110,9 @@ ImU32 shownColor(const glm::dvec3& radiance, double exposure) {
 }
 
 ImU32 falseShownColor(const glm::dvec3& radiance, double exposure) {
-    constexpr double kStops = 16.0;
     const double mean = (radiance.r + radiance.g + radiance.b) / 3.0 * exposure;
-    const double x = mean > 0.0 ? std::clamp(std::log2(mean) / kStops + 0.5, 0.0, 1.0) : 0.0;
+    const double x =
+        mean > 0.0 ? std::clamp(std::log2(mean) / kFalseColorStops + 0.5, 0.0, 1.0) : 0.0;
     // Finer than 8 bits can show; a strip asks for thousands.
     constexpr std::size_t kLast = 2047;
     static const std::array<ImU32, kLast + 1> table = [] {

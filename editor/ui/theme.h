@@ -20,7 +20,9 @@ void applyTheme(float scale);
 
 /// Radiance as the renderer shows it: a factor, the filmic curve, sRGB. @param exposure factor
 [[nodiscard]] ImU32 shownColor(const glm::dvec3& radiance, double exposure);
-/// The same in false colours: the mean of the channels over 16 stops about `exposure`'s white.
+/// Stops of radiance from the first of the false colours to the last.
+inline constexpr double kFalseColorStops = 16.0;
+/// The same in false colours: the mean of the channels, `exposure`'s white in their middle.
 [[nodiscard]] ImU32 falseShownColor(const glm::dvec3& radiance, double exposure);
 
 } // namespace lodestar::ui
